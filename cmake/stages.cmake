@@ -1,0 +1,46 @@
+# A stage is a folder of src/ as a static library. A stage without sources yet is an interface.
+find_package(Threads REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(Vulkan REQUIRED)
+find_package(glfw3 REQUIRED)
+
+# Debian's OpenImageIOConfig.cmake pulls in Imath's Python bindings, which are not installed; the two libraries are all we need.
+find_library(OPENIMAGEIO_LIBRARY OpenImageIO REQUIRED)
+find_library(OPENIMAGEIO_UTIL_LIBRARY OpenImageIO_Util REQUIRED)
+find_path(OPENIMAGEIO_INCLUDE_DIR OpenImageIO/imageio.h REQUIRED)
+find_path(IMATH_INCLUDE_DIR half.h PATH_SUFFIXES Imath REQUIRED)
+add_library(relievo_openimageio INTERFACE)
+target_link_libraries(relievo_openimageio INTERFACE ${OPENIMAGEIO_LIBRARY} ${OPENIMAGEIO_UTIL_LIBRARY})
+target_include_directories(relievo_openimageio SYSTEM INTERFACE $<BUILD_INTERFACE:${OPENIMAGEIO_INCLUDE_DIR}> $<BUILD_INTERFACE:${IMATH_INCLUDE_DIR}>)
+
+add_library(relievo_options INTERFACE)
+target_compile_options(relievo_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow
+  $<$<BOOL:${RELIEVO_WARNINGS_AS_ERRORS}>:-Werror>
+  # Results must not depend on whether the compiler fuses a multiply with an add: CPU and GPU are compared bit by bit in places.
+  -ffp-contract=off)
+if(RELIEVO_SANITIZE)
+  target_compile_options(relievo_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(relievo_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+function(relievo_stage name)
+  cmake_parse_arguments(STAGE "" "" "USES;THIRD_PARTY" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  list(TRANSFORM STAGE_USES PREPEND relievo_)
+  if(NOT sources)
+    add_library(relievo_${name} INTERFACE)
+    set(scope INTERFACE)
+  else()
+    add_library(relievo_${name} STATIC ${sources})
+    set(scope PUBLIC)
+  endif()
+  target_include_directories(relievo_${name} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
+  target_link_libraries(relievo_${name} ${scope} $<BUILD_INTERFACE:relievo_options> ${STAGE_USES} ${STAGE_THIRD_PARTY})
+  if(EXISTS ${PROJECT_SOURCE_DIR}/src/${name}/main.cpp)
+    add_executable(relievo ${PROJECT_SOURCE_DIR}/src/${name}/main.cpp)
+    target_link_libraries(relievo PRIVATE relievo_${name})
+  endif()
+endfunction()

@@ -1,0 +1,15 @@
+// The only doors to the maps. Each call is one texture fetch and is counted as one; a host (or the C++ shim) implements them.
+#ifndef RELIEVO_SURFACE_MAPS
+#define RELIEVO_SURFACE_MAPS
+#ifndef __cplusplus  // C++ finds these in techniques/glsl.h
+
+ivec2 height_size();                    // texels of the height map; no fetch
+float height_at(vec2 uv);               // bilinear height, always of the finest level: the declared surface
+vec4 height_cell(ivec2 cell);           // corner heights h00, h10, h01, h11 of bilinear cell [i,i+1] x [j,j+1], any integers
+vec3 normal_at(vec2 uv, float lod);     // unit normal, tangent space, +Y along +v; lod as in SurfaceRay
+vec2 cone_at(vec2 uv);                  // height and cone ratio together, bilinear
+int max_levels();                       // levels of the pyramid of maxima; no fetch
+float max_at(ivec2 node, int level);    // largest corner height in a node; node inside one period
+
+#endif
+#endif

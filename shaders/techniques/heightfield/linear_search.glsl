@@ -1,0 +1,19 @@
+// Linear search, also steep parallax mapping (McGuire & McGuire 2005): equal steps down the ray until one ends below the field.
+// One fetch a step. Features thinner than a step are stepped over, and every hit is late by up to a step, which shows as slices.
+#include "../../surface/maps.glsl"
+#include "../../surface/ray_entry.glsl"
+
+SurfaceHit linear_search(SurfaceRay ray, MarchParams params) {
+    SurfaceHit hit;
+    hit.found = false;
+    hit.height = ray.z_end;
+    for (int i = 1; i <= params.max_steps && !hit.found; ++i) {
+        float z = mix(ray.z_start, ray.z_end, float(i) / float(params.max_steps));
+        if (height_at(uv_at(ray, z)) >= z) {
+            hit.found = true;
+            hit.height = z;
+        }
+    }
+    hit.uv = uv_at(ray, hit.height);
+    return hit;
+}

@@ -1,0 +1,31 @@
+// The maps a technique may read, as plain arrays. What each one means stands here, once.
+#pragma once
+
+#include "core/height_field.h"
+#include "core/image.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace relievo {
+
+enum class Map : std::uint8_t { height, normal, colour, max_pyramid, cone };
+inline constexpr int map_count = 5;
+
+// Largest corner height of groups of 2^k x 2^k bilinear cells. Level 0 has one node per cell, padded (with 0, never visited)
+// to a multiple of 2^(levels-1) so that a Vulkan mip chain of the padded size has exactly these levels.
+struct MaxPyramid {
+    int cells_x = 0;  // cells of one period = texels of the height map
+    int cells_y = 0;
+    std::vector<ImageF> levels;
+};
+
+struct MapSet {
+    HeightField height;
+    std::vector<ImageF> normal;   // mip chain, 3 channels, unit vectors, tangent space, +Y along +v
+    std::vector<Image8> colour;   // mip chain, 4 channels, sRGB-encoded
+    MaxPyramid max_pyramid;       // empty until baked
+    ImageF cone;                  // 2 channels: height, cone ratio (UV radius per unit of height, at most 1); empty until baked
+};
+
+}  // namespace relievo

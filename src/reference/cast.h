@@ -1,0 +1,53 @@
+// Exact first hits of the declared bilinear surface, in double, by a plain walk from cell to cell: no pyramid, no cones and
+// nothing in common with the shaders, so that it cannot share their mistakes.
+#pragma once
+
+#include "core/frame.h"
+#include "core/height_field.h"
+#include "core/lighting.h"
+#include "core/map_set.h"
+#include "core/progress.h"
+#include "core/vec.h"
+
+#include <span>
+
+namespace relievo {
+
+// A descending ray in texture space: at height z it stands over uv + (z - zero_level) * uv_per_height; searched from z_start
+// down to z_end. uv_per_height is height_scale * view.xy / view.z.
+struct ReferenceRay {
+    Vec2d uv;
+    Vec2d uv_per_height;
+    double zero_level = 1;
+    double z_start = 1;
+    double z_end = 0;
+};
+
+struct ReferenceHit {
+    bool found = false;
+    Vec2d uv;           // not wrapped
+    double height = 0;
+    Vec2i cell;         // bilinear cell of the hit, not wrapped
+};
+
+// Every field is at least 0 and a ray with z_end = 0 reaches the floor, so it always finds a hit.
+ReferenceHit reference_cast(const HeightField& field, const ReferenceRay& ray);
+
+// Whether the straight line from a surface point toward a light (unit, tangent space) meets the surface again before it leaves
+// the slab. The point's own patch counts only where the line goes back into it; a light at or below the plane is hidden.
+bool reference_shadow(const HeightField& field, const ReferenceHit& point, Vec3d to_light, double height_scale);
+
+struct ReferenceSettings {
+    float height_scale = 0.05f;
+    float zero_level = 1;
+    bool shadow = true;   // cast exact hard shadows from the key light (the first)
+    int threads = 0;      // 0: all cores; the result does not depend on it
+};
+
+// The true picture. samples[0] are the rays through the pixel centres and fill every plane; colour averages the shaded hits of
+// all samples in linear light. Lights are in world space, of which tangent space is a translation here (flat base, t = +x).
+// Shading: lighting.h's Phong on bilinear colour and normals at the exact hit, trilinear at the rays' lod.
+Frame reference_frame(std::span<const RayField> samples, const MapSet& maps, const Lighting& lighting,
+                      const ReferenceSettings& settings, const Progress& progress = {});
+
+}  // namespace relievo

@@ -1,0 +1,16 @@
+// The same pictures from the same shader text, run on the CPU: for debuggers, sanitizers, fetch counts and parity tests.
+#pragma once
+
+#include "core/frame.h"
+#include "core/map_set.h"
+#include "scenes/scene.h"
+#include "techniques/technique.h"
+
+namespace relievo {
+
+// Everything of a Frame but colour, which stays black: hits, heights, normals, key-light visibility and fetches. Multi-threaded,
+// the same result for any number of threads (0: all cores).
+Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, float zero_level, const Lighting& lighting,
+                const Technique& technique, const MarchParams& params, bool shadow, int threads);
+
+}  // namespace relievo

@@ -1,0 +1,188 @@
+#include "techniques/catalogue.h"
+
+#include "heightfield_functions.h"  // generated: one declaration per file of shaders/techniques/heightfield
+
+#include <algorithm>
+#include <array>
+
+namespace relievo {
+
+// The id is the file's name and the function's, so an entry without a file does not compile.
+#define SHADER(name) .id = #name, .family = family_of(&heightfield::name), .heightfield = &heightfield::name
+
+namespace {
+
+constexpr Technique table[] = {
+    {
+        SHADER(texture_mapping),
+        .title = "Texture mapping",
+        .summary = "paints the colour on a flat polygon",
+        .source = {"Catmull", 1974, "A Subdivision Algorithm for Computer Display of Curved Surfaces"},
+        .effects = {},
+        .maps = {},
+        .shaded_normals = false,
+        .knobs = {},
+        .max_fetches = [](const MarchParams&) { return 0; },
+        .limits = "no relief of any kind",
+    },
+    {
+        SHADER(normal_mapping),
+        .title = "Normal mapping",
+        .summary = "shades a flat polygon with the normals of the detailed surface",
+        .source = {"Cohen, Olano, Manocha", 1998, "Appearance-Preserving Simplification"},
+        .effects = {},
+        .maps = {},
+        .knobs = {},
+        .max_fetches = [](const MarchParams&) { return 0; },
+        .limits = "nothing shifts, hides or shadows: flat as soon as the view is grazing or moves",
+    },
+    {
+        SHADER(parallax_mapping),
+        .title = "Parallax mapping",
+        .summary = "shifts the texture by the height found under the ray",
+        .source = {"Kaneko et al.", 2001, "Detailed Shape Representation with Parallax Mapping"},
+        .effects = {.motion_parallax = true},
+        .maps = {Map::height},
+        .knobs = {},
+        .max_fetches = [](const MarchParams&) { return 1; },
+        .limits = "the shift grows without bound at grazing views and tears the texture",
+    },
+    {
+        SHADER(parallax_offset_limiting),
+        .title = "Parallax mapping with offset limiting",
+        .summary = "the parallax shift without its division by the view's cosine",
+        .source = {"Welsh", 2004, "Parallax Mapping with Offset Limiting: A Per-Pixel Approximation of Uneven Surfaces"},
+        .effects = {.motion_parallax = true},
+        .maps = {Map::height},
+        .knobs = {},
+        .max_fetches = [](const MarchParams&) { return 1; },
+        .limits = "flattens toward the horizon; no part ever hides another",
+    },
+    {
+        SHADER(linear_search),
+        .title = "Linear search (steep parallax)",
+        .summary = "takes equal steps down the ray until one ends below the surface",
+        .source = {"McGuire, McGuire", 2005, "Steep Parallax Mapping"},
+        .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .maps = {Map::height},
+        .knobs = {{knob::max_steps, 64}},
+        .max_fetches = [](const MarchParams& p) { return p.max_steps; },
+        .limits = "slices the relief into terraces, and steps over what is thinner than a step",
+    },
+    {
+        SHADER(binary_search),
+        .title = "Binary search alone",
+        .summary = "halves the whole ray toward some crossing of the surface",
+        .source = {"Policarpo, Oliveira, Comba", 2005, "Real-Time Relief Mapping on Arbitrary Polygonal Surfaces"},
+        .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .maps = {Map::height},
+        .knobs = {{knob::refine_steps, 10}},
+        .max_fetches = [](const MarchParams& p) { return p.refine_steps; },
+        .limits = "finds a hidden crossing wherever the ray meets the surface more than once",
+    },
+    {
+        SHADER(relief_mapping),
+        .title = "Relief mapping",
+        .summary = "a linear search to bracket the surface, bisection to find it",
+        .source = {"Policarpo, Oliveira, Comba", 2005, "Real-Time Relief Mapping on Arbitrary Polygonal Surfaces"},
+        .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .maps = {Map::height},
+        .knobs = {{knob::max_steps, 30}, {knob::refine_steps, 6}},
+        .max_fetches = [](const MarchParams& p) { return p.max_steps + p.refine_steps; },
+        .limits = "sharp where it hits, but steps over what is thinner than a step",
+    },
+    {
+        SHADER(parallax_slope),
+        .title = "Parallax mapping with slope",
+        .summary = "the offset-limited shift, weakened where the surface is steep",
+        .source = {"Premecz", 2006, "Iterative Parallax Mapping with Slope Information"},
+        .effects = {.motion_parallax = true},
+        .maps = {Map::height, Map::normal},
+        .knobs = {},
+        .max_fetches = [](const MarchParams&) { return 2; },
+        .limits = "steep flanks stay where they are; no part ever hides another",
+    },
+    {
+        SHADER(parallax_iterative),
+        .title = "Iterative parallax mapping",
+        .summary = "repeats the shift from where it landed, damped by the slope",
+        .source = {"Premecz", 2006, "Iterative Parallax Mapping with Slope Information"},
+        .effects = {.motion_parallax = true},
+        .maps = {Map::height, Map::normal},
+        .knobs = {{knob::iterations, 4}},
+        .max_fetches = [](const MarchParams& p) { return 2 * p.iterations; },
+        .limits = "settles on whichever crossing is near, so steep walls smear",
+    },
+    {
+        SHADER(parallax_occlusion_mapping),
+        .title = "Parallax occlusion mapping",
+        .summary = "a linear search with more steps at grazing views, then one secant",
+        .source = {"Tatarchuk", 2006, "Dynamic Parallax Occlusion Mapping with Approximate Soft Shadows"},
+        .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .maps = {Map::height},
+        .knobs = {{knob::max_steps, 64}, {knob::min_steps, 8}},
+        .max_fetches = [](const MarchParams& p) { return p.max_steps; },
+        .limits = "cuts corners at steps, and steps over what is thinner than a step",
+    },
+    {
+        SHADER(cone_step_mapping),
+        .title = "Cone step mapping",
+        .summary = "leaps to the wall of the empty cone above each texel",
+        .source = {"Dummer", 2006, "Cone Step Mapping: An Iterative Ray-Heightfield Intersection Algorithm"},
+        .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .maps = {Map::cone},
+        .knobs = {{knob::max_steps, 64}, {knob::tolerance, 1e-3f}},
+        .max_fetches = [](const MarchParams& p) { return p.max_steps; },
+        .limits = "creeps beside thin spikes and stops short when its steps run out; pierced by edges between texels",
+    },
+    {
+        SHADER(max_mip_tracing),
+        .title = "Maximum mipmap tracing",
+        .summary = "skips empty nodes of a pyramid of maxima and solves each cell it may touch",
+        .source = {"Tevs, Ihrke, Seidel", 2008, "Maximum Mipmaps for Fast, Accurate, and Scalable Dynamic Height Field Rendering"},
+        .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .maps = {Map::height, Map::max_pyramid},
+        .knobs = {{knob::max_steps, 2048}},
+        .max_fetches = [](const MarchParams& p) { return p.max_steps; },
+        .budget = {.missed = 1e-5f, .uv_p99_texels = 1e-2f},
+        .exact = true,
+        .limits = "none in what it finds; its cost grows with grazing views and spiky relief",
+    },
+};
+
+#undef SHADER
+
+constexpr bool every_file_has_an_entry() {
+    for (const std::string_view file : heightfield::files) {
+        bool listed = false;
+        for (const Technique& t : table) listed = listed || t.id == file;
+        if (!listed) return false;
+    }
+    return true;
+}
+static_assert(every_file_has_an_entry(),
+              "a file in shaders/techniques/heightfield has no entry in the table above: add one (CONTRIBUTING.md, Add a technique)");
+
+constexpr bool in_order_of_year() {
+    for (std::size_t i = 1; i < std::size(table); ++i)
+        if (table[i].source.year < table[i - 1].source.year) return false;
+    return true;
+}
+static_assert(in_order_of_year(), "the table is read as a history: keep it in order of year");
+
+}  // namespace
+
+std::span<const Technique> techniques() { return table; }
+
+const Technique* find_technique(std::string_view id) {
+    const auto it = std::ranges::find(table, id, &Technique::id);
+    return it == std::end(table) ? nullptr : it;
+}
+
+MarchParams default_params(const Technique& technique) {
+    MarchParams params{.max_steps = 1, .min_steps = 1, .refine_steps = 0, .iterations = 1, .tolerance = 1e-3f};
+    for (const KnobDefault& d : technique.knobs) d.knob->set(params, d.value);
+    return params;
+}
+
+}  // namespace relievo

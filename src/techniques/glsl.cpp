@@ -1,0 +1,87 @@
+#include "techniques/glsl.h"
+
+#include "core/wrap.h"
+
+#include <stdexcept>
+
+namespace relievo::glsl {
+
+thread_local BoundMaps bound_maps;
+thread_local int fetch_count = 0;
+
+namespace {
+
+template <class T>
+const T& declared(const T* map, const char* name) {
+    if (map == nullptr) throw std::logic_error(std::string("technique reads the ") + name + " map, which its catalogue entry does not declare");
+    ++fetch_count;
+    return *map;
+}
+
+// The sampler's rule: bilinear between texel centres, repeat.
+void sample_bilinear(const ImageF& image, vec2 uv, float* out) {
+    const float x = uv.x * static_cast<float>(image.width) - 0.5f;
+    const float y = uv.y * static_cast<float>(image.height) - 0.5f;
+    const float x0 = std::floor(x);
+    const float y0 = std::floor(y);
+    const float fx = x - x0;
+    const float fy = y - y0;
+    const int i0 = wrap_index(static_cast<int>(x0), image.width);
+    const int j0 = wrap_index(static_cast<int>(y0), image.height);
+    const int i1 = i0 + 1 == image.width ? 0 : i0 + 1;
+    const int j1 = j0 + 1 == image.height ? 0 : j0 + 1;
+    for (int c = 0; c < image.channels; ++c) {
+        const float low = image(i0, j0, c) + fx * (image(i1, j0, c) - image(i0, j0, c));
+        const float high = image(i0, j1, c) + fx * (image(i1, j1, c) - image(i0, j1, c));
+        out[c] = low + fy * (high - low);
+    }
+}
+
+}  // namespace
+
+BoundMaps bind_maps(const MapSet& maps) {
+    return {&maps.height, &maps.normal, &maps.max_pyramid, &maps.cone, {maps.height.width(), maps.height.height()}};
+}
+
+ivec2 height_size() { return bound_maps.height_size; }
+
+float height_at(vec2 uv) {
+    float h = 0;
+    sample_bilinear(declared(bound_maps.height, "height").texels, uv, &h);
+    return h;
+}
+
+vec4 height_cell(ivec2 cell) {
+    const auto c = declared(bound_maps.height, "height").cell(cell.x, cell.y);
+    return {c[0], c[1], c[2], c[3]};
+}
+
+vec3 normal_at(vec2 uv, float lod) {
+    const auto& chain = declared(bound_maps.normal, "normal");
+    const float size = static_cast<float>(std::max(chain[0].width, chain[0].height));
+    const float level = clamp(lod + std::log2(size), 0.0f, static_cast<float>(chain.size() - 1));
+    const auto fine = static_cast<std::size_t>(level);
+    const auto coarse = std::min(fine + 1, chain.size() - 1);
+    float a[3];
+    float b[3];
+    sample_bilinear(chain[fine], uv, a);
+    sample_bilinear(chain[coarse], uv, b);
+    return normalize(mix(vec3(a[0], a[1], a[2]), vec3(b[0], b[1], b[2]), level - static_cast<float>(fine)));
+}
+
+vec2 cone_at(vec2 uv) {
+    float out[2];
+    sample_bilinear(declared(bound_maps.cone, "cone"), uv, out);
+    return {out[0], out[1]};
+}
+
+int max_levels() {
+    if (bound_maps.max_pyramid == nullptr) throw std::logic_error("technique uses the max_pyramid map, which its catalogue entry does not declare");
+    return static_cast<int>(bound_maps.max_pyramid->levels.size());
+}
+
+float max_at(ivec2 node, int level) {
+    return declared(bound_maps.max_pyramid, "max_pyramid").levels[static_cast<std::size_t>(level)](node.x, node.y);
+}
+
+}  // namespace relievo::glsl

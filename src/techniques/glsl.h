@@ -1,0 +1,67 @@
+// The part of GLSL our technique files use, in C++: included around a shader file, it makes the CPU run the very function the
+// GPU runs. Maps are bound per thread; every accessor counts one fetch, as on the GPU.
+#pragma once
+
+#include "core/map_set.h"
+#include "core/vec.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relievo::glsl {
+
+using vec2 = relievo::Vec2<float>;
+using vec3 = relievo::Vec3<float>;
+using vec4 = relievo::Vec4<float>;
+using ivec2 = relievo::Vec2<int>;
+
+using relievo::cross;
+using relievo::dot;
+using relievo::length;
+using relievo::normalize;
+
+inline float abs(float x) { return std::fabs(x); }
+inline float floor(float x) { return std::floor(x); }
+inline float sqrt(float x) { return std::sqrt(x); }
+inline float exp2(float x) { return std::exp2(x); }
+inline float log2(float x) { return std::log2(x); }
+inline float pow(float x, float y) { return std::pow(x, y); }
+inline float fract(float x) { return x - std::floor(x); }
+inline float min(float a, float b) { return b < a ? b : a; }
+inline float max(float a, float b) { return a < b ? b : a; }
+inline int min(int a, int b) { return b < a ? b : a; }
+inline int max(int a, int b) { return a < b ? b : a; }
+inline float clamp(float x, float low, float high) { return min(max(x, low), high); }
+inline int clamp(int x, int low, int high) { return min(max(x, low), high); }
+inline float mix(float a, float b, float t) { return a * (1.0f - t) + b * t; }
+inline vec2 floor(vec2 v) { return {std::floor(v.x), std::floor(v.y)}; }
+inline vec3 mix(vec3 a, vec3 b, float t) { return a * (1.0f - t) + b * t; }
+
+#include "shared/heightfield.h"
+#include "shared/march_params.h"
+#include "shared/shells.h"
+
+// The maps the calling thread reads and the fetches it made. A map whose pointer is null was not declared by the technique:
+// reading it throws std::logic_error, which fails the contract test that tried.
+struct BoundMaps {
+    const HeightField* height = nullptr;
+    const std::vector<ImageF>* normal = nullptr;
+    const MaxPyramid* max_pyramid = nullptr;
+    const ImageF* cone = nullptr;
+    ivec2 height_size{};
+};
+
+BoundMaps bind_maps(const MapSet& maps);
+
+extern thread_local BoundMaps bound_maps;
+extern thread_local int fetch_count;
+
+ivec2 height_size();
+float height_at(vec2 uv);
+vec4 height_cell(ivec2 cell);
+vec3 normal_at(vec2 uv, float lod);
+vec2 cone_at(vec2 uv);
+int max_levels();
+float max_at(ivec2 node, int level);
+
+}  // namespace relievo::glsl

@@ -1,0 +1,89 @@
+// What a row of the catalogue says about a technique. The families' signatures are fixed here, all of them, so that the
+// catalogue serves height fields, layered fields and fur alike:
+//   height field and layered field:  SurfaceHit  name(SurfaceRay, MarchParams)
+//   shells (fur):                    ShellSample name(ShellPoint, ShellParams)
+#pragma once
+
+#include "core/map_set.h"
+#include "techniques/glsl.h"
+#include "techniques/knobs.h"
+
+#include <initializer_list>
+#include <span>
+#include <string_view>
+
+namespace relievo {
+
+enum class Family { heightfield };
+
+using HeightFieldFunction = glsl::SurfaceHit (*)(glsl::SurfaceRay, glsl::MarchParams);
+
+// A list that lives inside a constexpr table row.
+template <class T, int capacity>
+struct Few {
+    T items[static_cast<std::size_t>(capacity)]{};
+    int count = 0;
+    constexpr Few() = default;
+    constexpr Few(std::initializer_list<T> list) {
+        for (const T& item : list) items[count++] = item;  // too many: out of bounds, so the table does not compile
+    }
+    constexpr const T* begin() const { return items; }
+    constexpr const T* end() const { return items + count; }
+    constexpr bool contains(const T& t) const {
+        for (const T& item : *this)
+            if (item == t) return true;
+        return false;
+    }
+};
+
+struct Source {
+    std::string_view author;
+    int year;
+    std::string_view title;
+};
+
+// The four effects the field compares; what a technique claims is measured by a test.
+struct Effects {
+    bool motion_parallax = false;
+    bool self_occlusion = false;
+    bool self_shadow = false;
+    bool silhouette = false;
+};
+
+struct KnobDefault {
+    const Knob* knob = nullptr;
+    float value = 0;
+    constexpr KnobDefault() = default;
+    constexpr KnobDefault(const Knob& k, float v) : knob(&k), value(v) {}
+    constexpr bool operator==(const KnobDefault&) const = default;
+};
+
+// Upper bounds that hold at the default knobs on the contract's random fields, seen 30 degrees above the plane.
+struct Budget {
+    float missed = 1.0f;         // share of first hits late by more than half a texel
+    float uv_p99_texels = 1e9f;  // 99th percentile of the UV error
+};
+
+struct Technique {
+    std::string_view id;
+    Family family;
+    HeightFieldFunction heightfield = nullptr;
+    std::string_view title;
+    std::string_view summary;  // one clause: what it does
+    Source source;
+    Effects effects;
+    Few<Map, 4> maps;          // maps of the search; shading adds normal and colour where shaded_normals says so
+    bool shaded_normals = true;  // false: shaded with the polygon's own normal
+    Few<KnobDefault, 4> knobs;
+    int (*max_fetches)(const MarchParams&) = nullptr;  // most fetches the search may make with these knobs
+    Budget budget = {};
+    bool exact = false;        // finds the declared surface's first hit, up to float rounding
+    std::string_view limits;   // where it fails
+};
+
+constexpr Family family_of(HeightFieldFunction) { return Family::heightfield; }
+
+// The technique's knobs at their defaults; knobs it does not declare hold values it never reads.
+MarchParams default_params(const Technique& technique);
+
+}  // namespace relievo
