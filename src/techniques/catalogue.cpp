@@ -155,7 +155,7 @@ constexpr Technique table[] = {
         .summary = "leaps to the wall of the empty cone above each texel",
         .source = {"Dummer", 2006, "Cone Step Mapping: An Iterative Ray-Heightfield Intersection Algorithm"},
         .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
-        .solves = {.level = true, .ramp = true, .wedge = true},
+        .solves = {.level = true, .ramp = true},
         .precision = [](const MarchParams& p, float) { return Precision{.error = p.tolerance}; },
         .converges = {&knob::max_steps},
         .maps = {Map::cone},

@@ -38,13 +38,13 @@ double excess(const Profile& profile, const SurfaceRay& ray, const SurfaceHit& h
 Verdict judge(const Technique& technique, const MarchParams& params, const Profile& profile) {
     Verdict verdict;
     for (const float height_scale : {0.05f, 0.15f}) {
-        const MapSet maps = maps_for(profile.field(), height_scale);
+        const MapSet maps = baked_maps(profile.field(), height_scale);
         for (const float zero_level : {0.0f, 0.5f, 1.0f}) {
             for (const double elevation : {90.0, 60.0, 30.0, 10.0}) {
                 for (const double azimuth : {0.0, 180.0, 25.0, 140.0}) {
                     for (int i = 0; i < 48; ++i) {
                         const glsl::vec3 view = view_from(elevation, azimuth);
-                        const SurfaceRay ray = glsl::view_ray({(static_cast<float>(i) + 0.37f) / 48, 0.4f}, view, height_scale, zero_level, -6.0f);
+                        const SurfaceRay ray = glsl::view_ray({(static_cast<float>(i) + 0.37f) / 48, 0.4f}, view, height_scale, zero_level, finest);
                         if (!profile.contains(ray)) continue;
                         const Precision precision = technique.precision ? technique.precision(params, view.z) : Precision{};
                         const double e = excess(profile, ray, trace(technique, maps, ray, params).hit, precision);
@@ -111,7 +111,7 @@ TEST_P(EveryTechnique, finds_a_step) { expect_claim(technique(), defaults(), tec
 // Where the relief lies in the polygon there is nothing to find, and where the view is from straight above nothing shifts.
 TEST_P(EveryTechnique, shows_the_texel_under_the_ray_where_nothing_shifts) {
     for (const float zero_level : {0.0f, 0.5f, 1.0f}) {
-        const MapSet level = maps_for(HeightField(16, 16, zero_level), 0.1f);
+        const MapSet level = baked_maps(HeightField(16, 16, zero_level), 0.1f);
         for (const SurfaceRay& ray : random_rays(64, 25, 0.1f, zero_level, 7)) {
             const SurfaceHit hit = trace(technique(), level, ray, defaults()).hit;
             EXPECT_TRUE(hit.found);
@@ -119,7 +119,7 @@ TEST_P(EveryTechnique, shows_the_texel_under_the_ray_where_nothing_shifts) {
             EXPECT_NEAR(hit.height, zero_level, allowed + rounding);
             EXPECT_LE(length(hit.uv - ray.uv), (allowed + rounding) * length(ray.uv_per_height));
         }
-        const MapSet hills = maps_for(HeightField(wedges()[0].field()), 0.1f);
+        const MapSet hills = baked_maps(HeightField(wedges()[0].field()), 0.1f);
         for (const SurfaceRay& ray : random_rays(64, 90, 0.1f, zero_level, 8)) {
             const SurfaceHit hit = trace(technique(), hills, ray, defaults()).hit;
             EXPECT_TRUE(hit.found);

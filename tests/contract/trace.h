@@ -1,7 +1,7 @@
 // One technique on one ray on the CPU, allowed to read the maps its row declares and no other.
 #pragma once
 
-#include "contract/maps_for_tests.h"
+#include "contract/baked_maps.h"
 #include "reference/cast.h"
 #include "techniques/catalogue.h"
 
@@ -13,11 +13,14 @@
 #include <random>
 #include <string>
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
 namespace relievo::glsl {
 namespace {
 #include "surface/ray_entry.glsl"
 }
 }  // namespace relievo::glsl
+#pragma GCC diagnostic pop
 
 namespace relievo {
 
@@ -75,6 +78,9 @@ inline Traced trace(const Technique& technique, const glsl::BoundMaps& bound, co
 inline Traced trace(const Technique& technique, const MapSet& maps, const SurfaceRay& ray, const MarchParams& params) {
     return trace(technique, declared_maps(technique, maps), ray, params);
 }
+
+// A footprint finer than any texel of the test fields: the declared surface and its finest normals.
+inline constexpr float finest = -16.0f;
 
 // Unit vector from the surface to the eye.
 inline glsl::vec3 view_from(double elevation_deg, double azimuth_deg) {
