@@ -30,7 +30,9 @@ struct Row {
     std::string error_image;      // where it is wrong, in the colours of Results::error_legend
     std::string reference_image;  // the exact answer at the same size, same exposure
     std::string fetches_image;    // cost per pixel, in the colours of Results::fetches_legend
-    std::string pixels;           // script with the values behind the pictures (pixels.h), for the page's inspector
+    std::string pixels;           // scripts with the values behind the pictures (pixels.h), for the page's inspector:
+    std::string reference_pixels; //   the row's own, and those of the reference
+    std::string where;            // where in the picture it is wrong, in words (pixels.h); may be empty
     std::string no_picture;       // why a path is empty, where one is; a general sentence stands in when this is empty too
 };
 

@@ -65,7 +65,9 @@ Json row_json(const Row& r, bool with_pictures) {
         picture("error_image", r.error_image);
         picture("reference_image", r.reference_image);
         picture("fetches_image", r.fetches_image);
-        picture("pixels", r.pixels);
+        if (!r.pixels.empty()) row["pixels"] = r.pixels;
+        if (!r.reference_pixels.empty()) row["reference_pixels"] = r.reference_pixels;
+        if (!r.where.empty()) row["where"] = r.where;
     }
     if (!reasons.empty()) row["reasons"] = reasons;
     return row;
@@ -177,7 +179,9 @@ Row read_row(const Node& node) {
     picture("error_image", r.error_image);
     picture("reference_image", r.reference_image);
     picture("fetches_image", r.fetches_image);
-    picture("pixels", r.pixels);
+    if (node.has("pixels")) r.pixels = node.at("pixels").text();
+    if (node.has("reference_pixels")) r.reference_pixels = node.at("reference_pixels").text();
+    if (node.has("where")) r.where = node.at("where").text();
     return r;
 }
 
