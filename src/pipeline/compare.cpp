@@ -5,12 +5,14 @@
 #include "assets/image_file.h"
 #include "core/error.h"
 #include "core/parallel_for.h"
+#include "core/version.h"
 #include "maps/map_kinds.h"
 #include "measure/error_picture.h"
 #include "measure/measure.h"
 #include "pipeline/map_set_bake.h"
 #include "reference/cast.h"
 #include "report/page.h"
+#include "report/pixels.h"
 #include "techniques/catalogue.h"
 
 #include <algorithm>
@@ -86,12 +88,6 @@ TimeSpread spread(std::vector<double> ms) {
     return {ms.front(), median, ms.back(), static_cast<int>(n)};
 }
 
-Legend legend_of(const PictureLegend& legend) {
-    Legend result{legend.title, legend.unit, {}};
-    for (const auto& stop : legend.stops) result.stops.push_back({stop.label, stop.colour});
-    return result;
-}
-
 // Counts finished units of work, so that the progress is one line over the whole comparison.
 struct Counter {
     const Progress& progress;
@@ -125,7 +121,7 @@ public:
 
         Results results;
         results.manifest = {.command = settings_.command,
-                            .version = RELIEVO_VERSION,
+                            .version = std::string(version),
                             .date = utc_now(),
                             .device = gpu_.device_name(),
                             .driver = gpu_.driver(),
@@ -138,8 +134,8 @@ public:
                             .seconds = 0,
                             .docs = {},
                             .materials = {}};
-        results.error_legend = legend_of(error_legend());
-        results.fetches_legend = legend_of(fetches_legend());
+        results.error_legend = hit_error_legend();
+        results.fetches_legend = fetches_legend();
         for (const MapKind& m : map_kinds()) results.maps.push_back({m.map, std::string(m.id), std::string(m.title), std::string(m.summary)});
 
         const auto units = settings_.materials.size() * (1 + views_.size() * techniques_.size());
@@ -199,6 +195,9 @@ private:
         const std::string prefix = "pictures/" + name + "/" + folder_name(view.id) + "-";
         const std::string reference_path = prefix + "reference.png";
 
+        const std::string reference_pixels = prefix + "reference-pixels.js";
+        const PixelSettings pixels{baked.maps.height.width(), baked.maps.height.height()};
+
         std::vector<Contestant> contestants;
         for (const Technique* t : techniques_) contestants.push_back({t, default_params(*t), true});
         // The sweep is made in the first view only: it doubles the work, and one view shows how error falls with cost.
@@ -213,6 +212,7 @@ private:
         // Pictures are encoded together at the end, on all cores.
         std::vector<std::function<void()>> writes;
         writes.push_back([&] { write_frame_png(out / reference_path, truth.colour); });
+        writes.push_back([&] { write_file_atomically(out / reference_pixels, reference_pixel_script(truth)); });
         for (std::size_t i = 0; i < contestants.size(); ++i) {
             const Contestant& c = contestants[i];
             auto frame = std::make_shared<Frame>(gpu_.draw(stage, material, *c.technique, c.params, picture_));
@@ -229,11 +229,18 @@ private:
                 row.error_image = prefix + row.technique + "-error.png";
                 row.fetches_image = prefix + row.technique + "-fetches.png";
                 row.reference_image = reference_path;
+                row.pixels = prefix + row.technique + "-pixels.js";
+                row.reference_pixels = reference_pixels;
+                row.where = where_it_is_wrong(*frame, truth, rays.front(), pixels);
                 writes.push_back([frame, file = out / row.image] { write_frame_png(file, frame->colour); });
                 writes.push_back([frame, &truth, &rays, &baked, file = out / row.error_image] {
-                    write_png(file, error_picture(*frame, truth, rays.front(), baked.maps.height.width(), baked.maps.height.height()), FirstRow::top);
+                    const Vec2i texels{baked.maps.height.width(), baked.maps.height.height()};
+                    write_png(file, hit_error_picture(hit_error_texels(*frame, truth, rays.front(), texels, 1), 1), FirstRow::top);
                 });
-                writes.push_back([frame, file = out / row.fetches_image] { write_png(file, fetches_picture(*frame), FirstRow::top); });
+                writes.push_back([frame, &truth, &rays, pixels, file = out / row.pixels] {
+                    write_file_atomically(file, pixel_script(*frame, truth, rays.front(), pixels));
+                });
+                writes.push_back([frame, file = out / row.fetches_image] { write_png(file, fetches_picture(*frame, 1), FirstRow::top); });
                 results.rows.push_back(std::move(row));
                 counter.step();
             } else {
