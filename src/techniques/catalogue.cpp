@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace relievo {
 
@@ -11,6 +12,9 @@ namespace relievo {
 #define SHADER(name) .id = #name, .family = family_of(&heightfield::name), .heightfield = &heightfield::name
 
 namespace {
+
+float share(int steps) { return 1.0f / static_cast<float>(steps); }
+float halved(float length, int times) { return std::ldexp(length, -times); }
 
 constexpr Technique table[] = {
     {
@@ -42,6 +46,8 @@ constexpr Technique table[] = {
         .summary = "shifts the texture by the height found under the ray",
         .source = {"Kaneko et al.", 2001, "Detailed Shape Representation with Parallax Mapping"},
         .effects = {.motion_parallax = true},
+        .solves = {.level = true},
+        .precision = [](const MarchParams&, float) { return Precision{}; },
         .maps = {Map::height},
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 1; },
@@ -64,6 +70,9 @@ constexpr Technique table[] = {
         .summary = "takes equal steps down the ray until one ends below the surface",
         .source = {"McGuire, McGuire", 2005, "Steep Parallax Mapping"},
         .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .solves = {.level = true, .ramp = true, .wedge = true, .step = true},
+        .precision = [](const MarchParams& p, float) { return Precision{.error = share(p.max_steps), .stride = share(p.max_steps)}; },
+        .converges = {&knob::max_steps},
         .maps = {Map::height},
         .knobs = {{knob::max_steps, 64}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps; },
@@ -75,6 +84,8 @@ constexpr Technique table[] = {
         .summary = "halves the whole ray toward some crossing of the surface",
         .source = {"Policarpo, Oliveira, Comba", 2005, "Real-Time Relief Mapping on Arbitrary Polygonal Surfaces"},
         .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .solves = {.level = true, .ramp = true},
+        .precision = [](const MarchParams& p, float) { return Precision{.error = halved(1, p.refine_steps)}; },
         .maps = {Map::height},
         .knobs = {{knob::refine_steps, 10}},
         .max_fetches = [](const MarchParams& p) { return p.refine_steps; },
@@ -86,6 +97,11 @@ constexpr Technique table[] = {
         .summary = "a linear search to bracket the surface, bisection to find it",
         .source = {"Policarpo, Oliveira, Comba", 2005, "Real-Time Relief Mapping on Arbitrary Polygonal Surfaces"},
         .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .solves = {.level = true, .ramp = true, .wedge = true, .step = true},
+        .precision = [](const MarchParams& p, float) {
+            return Precision{.error = halved(share(p.max_steps), p.refine_steps), .stride = share(p.max_steps)};
+        },
+        .converges = {&knob::max_steps, &knob::refine_steps},
         .maps = {Map::height},
         .knobs = {{knob::max_steps, 30}, {knob::refine_steps, 6}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps + p.refine_steps; },
@@ -108,6 +124,9 @@ constexpr Technique table[] = {
         .summary = "repeats the shift from where it landed, damped by the slope",
         .source = {"Premecz", 2006, "Iterative Parallax Mapping with Slope Information"},
         .effects = {.motion_parallax = true},
+        .solves = {.level = true},
+        .precision = [](const MarchParams& p, float view_z) { return Precision{.error = std::pow(1 - view_z, static_cast<float>(p.iterations))}; },
+        .converges = {&knob::iterations},
         .maps = {Map::height, Map::normal},
         .knobs = {{knob::iterations, 4}},
         .max_fetches = [](const MarchParams& p) { return 2 * p.iterations; },
@@ -119,9 +138,15 @@ constexpr Technique table[] = {
         .summary = "a linear search with more steps at grazing views, then one secant",
         .source = {"Tatarchuk", 2006, "Dynamic Parallax Occlusion Mapping with Approximate Soft Shadows"},
         .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .solves = {.level = true, .ramp = true, .wedge = true, .step = true},
+        .precision = [](const MarchParams& p, float view_z) {
+            const float step = 1 / (view_z * static_cast<float>(p.min_steps) + (1 - view_z) * static_cast<float>(p.max_steps) - 0.5f);
+            return Precision{.error = step, .stride = step};
+        },
+        .converges = {&knob::max_steps, &knob::min_steps},
         .maps = {Map::height},
         .knobs = {{knob::max_steps, 64}, {knob::min_steps, 8}},
-        .max_fetches = [](const MarchParams& p) { return p.max_steps; },
+        .max_fetches = [](const MarchParams& p) { return p.max_steps + 1; },
         .limits = "cuts corners at steps, and steps over what is thinner than a step",
     },
     {
@@ -130,6 +155,9 @@ constexpr Technique table[] = {
         .summary = "leaps to the wall of the empty cone above each texel",
         .source = {"Dummer", 2006, "Cone Step Mapping: An Iterative Ray-Heightfield Intersection Algorithm"},
         .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .solves = {.level = true, .ramp = true},
+        .precision = [](const MarchParams& p, float) { return Precision{.error = p.tolerance}; },
+        .converges = {&knob::max_steps},
         .maps = {Map::cone},
         .knobs = {{knob::max_steps, 64}, {knob::tolerance, 1e-3f}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps; },
@@ -141,6 +169,9 @@ constexpr Technique table[] = {
         .summary = "skips empty nodes of a pyramid of maxima and solves each cell it may touch",
         .source = {"Tevs, Ihrke, Seidel", 2008, "Maximum Mipmaps for Fast, Accurate, and Scalable Dynamic Height Field Rendering"},
         .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .solves = {.level = true, .ramp = true, .wedge = true, .step = true},
+        .precision = [](const MarchParams&, float) { return Precision{}; },
+        .converges = {&knob::max_steps},
         .maps = {Map::height, Map::max_pyramid},
         .knobs = {{knob::max_steps, 2048}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps; },
