@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <numeric>
+#include <ostream>
 
 namespace relievo {
 namespace {
@@ -69,6 +70,8 @@ struct Pair {
     double pixels_per_degree = 67;
 };
 
+void PrintTo(const Pair& pair, std::ostream* out) { *out << pair.name; }
+
 class FlipAgainstDirect : public testing::TestWithParam<Pair> {};
 
 TEST_P(FlipAgainstDirect, AgreesPerPixel) {
@@ -113,7 +116,7 @@ std::vector<Pair> pairs() {
     };
 }
 
-INSTANTIATE_TEST_SUITE_P(Pictures, FlipAgainstDirect, testing::ValuesIn(pairs()), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Pictures, FlipAgainstDirect, testing::ValuesIn(pairs()), [](const auto& test) { return test.param.name; });
 
 TEST(Flip, PixelThatIsNotANumberIsNamed) {
     const ImageF good = random_picture(30, 90, 1);
