@@ -114,7 +114,7 @@ SurfaceFunction bricks(const Detail& detail) {
         // Few of the cells hold a pit, small ones more often than large: gas bubbles and lost grit, longer than high.
         const Cellular pit = cellular(own + Vec2f{0.004f * wobbles, 0.003f * lump}, {.cells_u = 50, .cells_v = 75, .jitter = 0.45f, .seed = detail.seed + 77});
         const float lot = unit(pit.id);
-        const float pit_size = lot < 0.11f ? 0.14f + 26.0f * lot * lot * lot * 9 : 0.0f;
+        const float pit_size = lot < 0.065f ? 0.13f + 1300 * lot * lot * lot : 0.0f;
         const float hollow = pit_size > 0 ? smooth_ramp(pit_size, 0.3f * pit_size, pit.nearest + 0.10f * g) * b.wear : 0.0f;
 
         const float rounding = 0.006f + 0.010f * b.wear;

@@ -22,7 +22,7 @@ std::vector<Groove> drawing() {
     const Section letters{.wall = 0.55f, .slope = 42, .floor = 0.93f};
     const Section key{.wall = 0.42f, .slope = 14, .floor = 0.5f};
     const Section fine{.wall = 0.40f, .slope = 40, .floor = 0.5f};
-    const Section petals{.wall = 0.22f, .slope = 46, .floor = 0.70f};
+    const Section petals{.wall = 0.16f, .slope = 34, .floor = 0.50f};
 
     std::vector<Groove> all = inscription("RELIEVO", {0, 0}, 0.136f, letters);
     const auto add = [&](const std::vector<Groove>& more) { all.insert(all.end(), more.begin(), more.end()); };
@@ -62,23 +62,23 @@ SurfaceFunction engraving(const Detail& detail) {
         const float strokes = stroke(uv);
 
         // Edges are not drawn with a ruler, and here and there the stone has flaked.
-        const float flake = smooth_ramp(0.38f, 0.75f, chip);
-        const float ragged = 0.0006f * chip + 0.0022f * flake;
+        const float flake = smooth_ramp(0.50f, 0.85f, chip);
+        const float ragged = 0.0005f * chip + 0.0016f * flake;
         const Cut cut = carving->at(p, wall, ragged);
         const float field = box_distance(p, {panel, panel});
         const float edge = box_distance(p, {slab, slab}, 0.003f) + 0.0010f * chip + 0.004f * flake;
 
         // The field is dressed with a claw chisel: parallel furrows in short strokes. The frame is rubbed smooth.
-        const float furrow = 17 * uv.x + 61 * uv.y + 0.7f * strokes;
-        const float tooth = cos_turns(furrow) * saturate(0.55f + 0.9f * strokes);
+        const float furrow = 26 * uv.x + 79 * uv.y + 0.33f * strokes;
+        const float tooth = cos_turns(furrow) * saturate(0.50f + 1.1f * strokes);
         const float tooled = smooth_ramp(0.0f, -0.003f, field);
         float height = 0.95f + 0.008f * clouds + 0.006f * g;
-        height += tooled * (0.022f * tooth - 0.030f + 0.012f * strokes);
+        height += tooled * (0.017f * tooth - 0.028f + 0.012f * strokes);
 
         // Pores of the stone.
         const Cellular pore = cellular(uv, {.cells_u = 64, .cells_v = 64, .jitter = 0.45f, .seed = detail.seed + 9});
         const float lot = unit(pore.id);
-        const float pore_size = lot < 0.08f ? 0.08f + 2.6f * lot : 0.0f;
+        const float pore_size = lot < 0.045f ? 0.08f + 4.5f * lot : 0.0f;
         const float hollow = pore_size > 0 ? smooth_ramp(pore_size, 0.4f * pore_size, pore.nearest + 0.06f * g) : 0.0f;
         height -= 0.10f * hollow;
 
