@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <numeric>
 
@@ -173,32 +171,17 @@ void convolve_row(const HalfKernel& w, int width, const float* padded_centre, fl
     convolve<symmetry>(w, width, out, [&](int k) { return padded_centre + k; }, [&](int k) { return padded_centre - k; });
 }
 
-// Down the column of every x: `first` is the row in question among rows `stride` apart.
+// Down the column of every x: `row` is the row in question among rows `stride` apart.
 template <Symmetry symmetry = Symmetry::even>
 void convolve_column(const HalfKernel& w, int width, const float* row, std::ptrdiff_t stride, float* out) {
     convolve<symmetry>(w, width, out, [&](int k) { return row + k * stride; }, [&](int k) { return row - k * stride; });
-}
-
-// Cube root of [0,1] by one guess from the exponent and two of Halley's steps: the loop vectorises, std::cbrt does not. Within
-// 3e-7 of exact.
-inline float cube_root(float x) {
-    // The bits of a float are nearly a logarithm; dividing them by three and mending the bias guesses the root within 4 %.
-    const auto bits = static_cast<float>(std::bit_cast<std::int32_t>(x));
-    float y = std::bit_cast<float>(static_cast<std::int32_t>(bits * (1.0f / 3.0f)) + 0x2a514067);
-    for (int i = 0; i < 2; ++i) {
-        const float cube = y * y * y;
-        y *= (cube + 2 * x) / (2 * cube + x);
-    }
-    return y;
 }
 
 // CIELAB's f.
 inline float lab_f(float t) {
     constexpr float delta = 6.0f / 29.0f;
     constexpr float linear_below = delta * delta * delta;
-    const float root = cube_root(std::max(t, linear_below));
-    const float line = t * (1 / (3 * delta * delta)) + 4.0f / 29.0f;
-    return t > linear_below ? root : line;
+    return t > linear_below ? std::cbrt(t) : t * (1 / (3 * delta * delta)) + 4.0f / 29.0f;
 }
 
 // L* and the Hunt-adjusted a*, b* (equation 5: colours are less colourful where it is dark) of linear RGB.
