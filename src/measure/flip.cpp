@@ -77,8 +77,8 @@ HalfKernel normalised_gaussian(double inverse_two_sigma_squared, int radius) {
     return half;
 }
 
-// Section 4.1.1: contrast sensitivity of the eye as Gaussians in space, g(x) = a sqrt(pi/b) exp(-pi^2 x^2 / b), x in degrees,
-// with the constants of table 1. The two-dimensional kernel is a function of the distance, so each Gaussian separates; only the
+// Spatial filtering (section 4.1): contrast sensitivity of the eye as Gaussians in space, g(x) = a sqrt(pi/b) exp(-pi^2 x^2 / b), x in degrees,
+// with the paper's constants. The two-dimensional kernel is a function of the distance, so each Gaussian separates; only the
 // blue-yellow one is a sum of two, whose shares follow from normalising their sum.
 struct ContrastFilters {
     HalfKernel achromatic, red_green, blue_yellow[2];
@@ -104,14 +104,14 @@ struct ContrastFilters {
     }
 };
 
-// Section 4.2: edges and points are found by the first and second derivative of a Gaussian, whose positive weights sum to one
+// Feature pipeline (section 4.2): edges and points are found by the first and second derivative of a Gaussian, whose positive weights sum to one
 // and whose negative weights to minus one. Both factors of exp(-(x^2 + y^2) / (2 sigma^2)) separate.
 struct FeatureFilters {
     HalfKernel gaussian, edge /* odd */, point /* even */;
     int radius;
 
     explicit FeatureFilters(double pixels_per_degree) {
-        const double sigma = 0.5 * 0.082 * pixels_per_degree;  // a feature is 0.082 degrees wide, equation 9
+        const double sigma = 0.5 * 0.082 * pixels_per_degree;  // a feature is 0.082 degrees wide
         radius = static_cast<int>(std::ceil(3 * sigma));
         std::vector<double> g, first, second;
         double sum = 0, first_positive = 0, second_positive = 0, second_negative = 0;
@@ -184,7 +184,7 @@ inline float lab_f(float t) {
     return t > linear_below ? std::cbrt(t) : t * (1 / (3 * delta * delta)) + 4.0f / 29.0f;
 }
 
-// L* and the Hunt-adjusted a*, b* (equation 5: colours are less colourful where it is dark) of linear RGB.
+// L* and the Hunt-adjusted a*, b* (colours are less colourful where it is dark) of linear RGB.
 inline void hunt_lab(const MatrixF& to_xyz, float r, float g, float b, float* lightness, float* a, float* b_out) {
     const float fx = lab_f(to_xyz.m[0][0] * r + to_xyz.m[0][1] * g + to_xyz.m[0][2] * b);
     const float fy = lab_f(to_xyz.m[1][0] * r + to_xyz.m[1][1] * g + to_xyz.m[1][2] * b);
@@ -195,7 +195,7 @@ inline void hunt_lab(const MatrixF& to_xyz, float r, float g, float b, float* li
     *b_out = 0.01f * l * 200 * (fy - fz);
 }
 
-// Equations 6 to 8: the exponent q_c makes large HyAB distances count less, then the range up to p_c of the largest possible
+// Error redistribution: the exponent q_c makes large HyAB distances count less, then the range up to p_c of the largest possible
 // distance (between green and blue) is given p_t of the scale.
 struct Redistribution {
     static constexpr double exponent = 0.7, knee_share = 0.4, knee_error = 0.95;
@@ -360,10 +360,10 @@ FlipResult flip(const ImageF& picture, const ImageF& reference, const FlipSettin
                 };
                 const float edges = std::abs(magnitude(p.edge_x, p.edge_y) - magnitude(q.edge_x, q.edge_y));
                 const float points = std::abs(magnitude(p.point_x, p.point_y) - magnitude(q.point_x, q.point_y));
-                // Equation 10 with q_f = 1/2; the largest magnitude is sqrt(2).
+                // Feature difference with q_f = 1/2; the largest magnitude is sqrt(2).
                 const float features = std::sqrt(std::max(edges, points) * static_cast<float>(1 / std::numbers::sqrt2));
 
-                // Equation 11: features make a colour difference more visible, never visible by themselves.
+                // Final difference: features make a colour difference more visible, never visible by themselves.
                 const float error = std::clamp(std::pow(colour, 1 - features), 0.0f, 1.0f);
                 result.error(i, y) = error;
                 sum += static_cast<double>(error);
