@@ -26,7 +26,7 @@ TEST(Flip, IdenticalPicturesAreExactlyZero) {
     for (float e : r.error.texels) EXPECT_EQ(e, 0);
 }
 
-// Uniform pictures have no features, so the error is that of the two colours alone, by equations 5 to 8 on paper:
+// Uniform pictures have no features, so the error is that of the two colours alone, worked out on paper:
 // black to white is 100 apart in L*; green and blue are the farthest pair by definition.
 TEST(Flip, KnownExtremes) {
     EXPECT_NEAR(flip(uniform(40, 30, {0, 1, 0}), uniform(40, 30, {0, 0, 1})).mean, 1, 1e-5);

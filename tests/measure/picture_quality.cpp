@@ -58,7 +58,7 @@ TEST(Psnr, DoesNotDependOnThreads) {
     EXPECT_EQ(*psnr_db(a, b, 1), *psnr_db(a, b, 3));
 }
 
-// Straight from section III-B of the paper: one 11 x 11 window per pixel, deviations from the means summed in double.
+// Straight from section III of the paper: one 11 x 11 window per pixel, deviations from the means summed in double.
 double direct_ssim(const ImageF& a, const ImageF& b) {
     const auto luma = [](const ImageF& image, int x, int y) {
         const auto mirror = [](int i, int n) {
