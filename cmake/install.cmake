@@ -14,6 +14,7 @@ foreach(stage ${RELIEVO_LIBRARY_STAGES})
 endforeach()
 target_include_directories(relievo_techniques PUBLIC $<INSTALL_INTERFACE:${shader_root}>)
 install(FILES ${PROJECT_BINARY_DIR}/generated/techniques/heightfield_functions.h DESTINATION ${include_root})
+install(FILES ${PROJECT_BINARY_DIR}/generated/core/version.h DESTINATION ${include_root}/core)
 install(DIRECTORY shaders/ DESTINATION ${shader_root})
 install(TARGETS relievo RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 

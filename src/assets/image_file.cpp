@@ -1,14 +1,15 @@
 #include "assets/image_file.h"
 
 #include "assets/atomic_file.h"
+#include "assets/file_integrity.h"
 #include "core/error.h"
 
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -69,25 +70,6 @@ std::string plugin_for(const std::filesystem::path& file) {
                 "known are PNG, JPEG, TGA, OpenEXR, TIFF, Radiance HDR, DDS, BMP and WebP");
 }
 
-// libjpeg fills what is missing from a truncated file with grey and only warns; a map whose lower half is invented must not
-// load. A whole file has its end marker (FF D9) somewhere after the last start of scan; thumbnails hide in skipped segments.
-bool jpeg_has_end(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
-    std::size_t at = 2;
-    while (at + 4 <= bytes.size() && byte(at) == 0xff) {
-        if (byte(at + 1) == 0xff) {
-            ++at;  // fill byte
-        } else if (byte(at + 1) == 0xda) {
-            return bytes.find("\xff\xd9", at) != std::string::npos;
-        } else {
-            at += 2 + byte(at + 2) * 256u + byte(at + 3);
-        }
-    }
-    return false;
-}
-
 struct OpenedImage {
     std::unique_ptr<OIIO::ImageInput> input;
     OIIO::ImageSpec spec;
@@ -103,6 +85,8 @@ std::string one_line(std::string text, const std::string& otherwise) {
 OpenedImage open_image(const std::filesystem::path& file) {
     OpenedImage opened;
     opened.info.format = plugin_for(file);
+    if (const std::string damage = damage_of(file, opened.info.format); !damage.empty())
+        throw Error("read image", file.string(), damage, "fetch or export it again");
     opened.input = OIIO::ImageInput::create(opened.info.format);
     if (!opened.input)
         throw Error("read image", file.string(), "this build of OpenImageIO cannot read " + opened.info.format,
@@ -123,8 +107,6 @@ OpenedImage open_image(const std::filesystem::path& file) {
     if (spec.depth > 1) throw Error("read image", file.string(), "it is a volume, not a picture");
     if (spec.get_string_attribute("textureformat").find("CubeFace") != std::string::npos)
         throw Error("read image", file.string(), "it is a cube map, not a picture");
-    if (opened.info.format == "jpeg" && !jpeg_has_end(file))
-        throw Error("read image", file.string(), "the file is truncated (no end-of-image marker)", "fetch or export it again");
 
     opened.info.width = spec.width;
     opened.info.height = spec.height;

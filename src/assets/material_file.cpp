@@ -1,7 +1,9 @@
 #include "assets/material_file.h"
 
 #include "assets/image_file.h"
+#include "assets/map_agreement.h"
 #include "assets/map_names.h"
+#include "assets/material_sidecar.h"
 #include "core/error.h"
 
 #include <algorithm>
@@ -113,34 +115,47 @@ HeightField read_height(const fs::path& file, std::vector<std::string>& notes) {
     return field;
 }
 
-ImageF read_normal(const fs::path& file) {
+ImageF read_normal(const fs::path& file, std::vector<std::string>& notes) {
     const ImageFileInfo info = read_image_info(file);
     if (info.channels < 2) throw Error("load normal map", file.string(), "it has one channel", "a normal map has red and green at least; is this a height?");
     const ImageF image = read_image(file);
     ImageF normal(image.width, image.height, 3);
     // Two channels (BC5) hold x and y; z follows from the length. Grey + alpha cannot be told from it and means nothing as normals.
     const bool rebuild_z = image.channels == 2;
-    std::size_t unusable = 0;
     // Floating files may hold the components themselves in [-1,1]; any value below 0 says so.
     const bool is_signed = info.floating && std::any_of(image.texels.begin(), image.texels.end(), [](float x) { return x < 0; });
     const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    std::size_t unset = 0;
+    std::size_t unusable = 0;
+    double chroma = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const float* texel = &image.texels[i * static_cast<std::size_t>(image.channels)];
         const auto component = [&](int c) { return is_signed ? texel[c] : 2 * texel[c] - 1; };
-        float x = component(0), y = component(1);
-        float z = rebuild_z ? std::sqrt(std::max(0.0f, 1 - x * x - y * y)) : component(2);
-        float n = std::sqrt(x * x + y * y + z * z);
-        if (!(n > 0.05f) || !std::isfinite(n) || z < -0.1f) ++unusable;
-        // Below the surface or of no length: nothing a height field has; straight up hides it best.
-        if (!(n > 0.05f) || !std::isfinite(n)) x = y = 0, z = n = 1;
-        if (z < 0) z = 0, n = std::max(std::sqrt(x * x + y * y), 1e-6f);
+        const float x = component(0);
+        const float y = component(1);
+        const float z = rebuild_z ? std::sqrt(std::max(0.0f, 1 - x * x - y * y)) : component(2);
+        const float length = std::sqrt(x * x + y * y + z * z);
         float* out = &normal.texels[i * 3];
-        out[0] = x / n, out[1] = y / n, out[2] = z / n;
+        // Bakers leave black where the mesh has no texels; no surface is meant there, and straight up disturbs least. The same
+        // goes for single texels that look below the plane or have no direction at all.
+        const bool black = !rebuild_z && !is_signed && std::max({texel[0], texel[1], texel[2]}) < 0.03f;
+        if (black || !std::isfinite(length) || length < 0.1f || z < 0) {
+            (black ? unset : unusable) += 1;
+            out[2] = 1;
+            continue;
+        }
+        if (!rebuild_z) chroma += static_cast<double>(std::max({texel[0], texel[1], texel[2]}) - std::min({texel[0], texel[1], texel[2]}));
+        out[0] = x / length, out[1] = y / length, out[2] = z / length;
     }
-    // A tangent-space map has all its normals above the plane; stray texels come from borders and compression.
-    if (static_cast<double>(unusable) > 0.25 * static_cast<double>(count))
-        throw Error("load normal map", file.string(), number(100.0 * static_cast<double>(unusable) / static_cast<double>(count)) +
-                    " % of its texels are no normals of a surface seen from above", "is it a colour, or an object-space normal map?");
+    const auto percent = [&](std::size_t part) { return number(100.0 * static_cast<double>(part) / static_cast<double>(count)) + " %"; };
+    // A tangent-space map has all its normals above the plane but for strays of compression.
+    if (static_cast<double>(unusable) > 0.25 * static_cast<double>(count - unset) || unset == count)
+        throw Error("load normal map", file.string(), percent(unusable + unset) + " of its texels are no normals of a surface seen from above",
+                    "is it a colour, or an object-space normal map?");
+    if (!rebuild_z && chroma < colour_chroma * static_cast<double>(count - unset - unusable))
+        throw Error("load normal map", file.string(), "it is grey", "is it a height?");
+    if (unset + unusable > count / 1000)
+        notes.push_back(percent(unset + unusable) + " of the normal map is black or looks below the plane; read as straight up");
     return normal;
 }
 
@@ -164,6 +179,88 @@ std::string name_of(const MaterialFiles& files) {
     for (const auto* file : {&files.height, &files.normal, &files.colour})
         if (*file) return (*file)->stem().string();
     return "material";
+}
+
+// "-0.97 in x and +0.97 in y at 128 x 128 texels"
+std::string figures_of(const MapAgreement& a) {
+    if (a.width == 0) return "too small to compare";
+    return number(a.x, "%+.2f") + " in x and " + number(a.y, "%+.2f") + " in y at " + std::to_string(a.width) + " x " + std::to_string(a.height) + " texels";
+}
+
+std::string_view meaning_of_name(const fs::path& file) {
+    const MapName* name = find_map_name(file.stem().string());
+    return name ? name->meaning : std::string_view{};
+}
+
+// Whether white is low. Whoever wrote the sidecar knows; then the two maps; then the file's name; then the custom.
+bool is_inverted(const MaterialFiles& files, const MaterialSidecar& sidecar, const std::optional<MapAgreement>& agreement,
+                 std::vector<std::string>& notes) {
+    const MapReading reading = agreement ? read_agreement(*agreement) : MapReading{};
+    const std::string evidence = agreement ? "slopes of height and normals correlate " + figures_of(*agreement) : "";
+    if (sidecar.white_is_high) {
+        const bool inverted = !*sidecar.white_is_high;
+        if (reading.polarity_decided && reading.inverted != inverted)
+            notes.push_back(std::string("material.toml says white is ") + (inverted ? "low" : "high") + ", and is obeyed, but the maps say the opposite: " + evidence);
+        return inverted;
+    }
+    if (reading.polarity_decided) {
+        notes.push_back((reading.inverted ? "height reads as depth (white is low) and was inverted: " : "height reads as height (white is high): ") + evidence);
+        return reading.inverted;
+    }
+    const bool inverted = meaning_of_name(*files.height) == "depth";
+    const std::string because = inverted ? "white taken as low, from the name " + files.height->filename().string() + ", and inverted" : "white taken as high";
+    notes.push_back(because + (agreement ? "; the maps leave it undecided: slopes correlate " + figures_of(*agreement) : "; there is no normal map to check it against"));
+    return inverted;
+}
+
+bool is_green_down(const MaterialFiles& files, const MaterialSidecar& sidecar, const std::optional<MapAgreement>& agreement,
+                   std::vector<std::string>& notes) {
+    MapReading reading = agreement ? read_agreement(*agreement) : MapReading{};
+    if (sidecar.white_is_high && !reading.polarity_decided && !*sidecar.white_is_high) reading.green_down = reading.green_decided && !reading.green_down;
+    const std::string evidence = agreement ? "slopes of height and normals correlate " + figures_of(*agreement) : "";
+    if (sidecar.normal_y_up) {
+        const bool down = !*sidecar.normal_y_up;
+        if (reading.green_decided && reading.green_down != down)
+            notes.push_back(std::string("material.toml says green points ") + (down ? "down" : "up") + ", and is obeyed, but the maps say the opposite: " + evidence);
+        return down;
+    }
+    if (reading.green_decided) {
+        notes.push_back(std::string("green of the normals points ") + (reading.green_down ? "down (DirectX) and was flipped" : "up (OpenGL)") +
+                        (reading.polarity_decided && !sidecar.white_is_high ? ", by the same figures" : ": " + evidence));
+        return reading.green_down;
+    }
+    const bool down = meaning_of_name(*files.normal) == "down";
+    const bool named = down || meaning_of_name(*files.normal) == "up";
+    notes.push_back(std::string("green of the normals taken as ") + (down ? "down (DirectX) and flipped" : "up (OpenGL)") +
+                    (named ? ", from the name " + files.normal->filename().string() : "") +
+                    (agreement ? "; the maps leave it undecided: slopes correlate " + figures_of(*agreement) : "; there is no height map to check it against"));
+    return down;
+}
+
+// Agreement (root mean square of the two correlations) from which the implied amplitude is a measurement rather than a rumour.
+constexpr double strong_agreement = 0.8;
+// Sets exist whose normals are drawn so weak that their relief would be a thousandth of the tile: nothing to see, nothing to
+// compare. Nor is relief deeper than an eighth of the tile what a texture is for.
+constexpr float least_height_scale = 0.02f;
+constexpr float most_height_scale = 0.12f;
+
+float height_scale_of(const MaterialSidecar& sidecar, const std::optional<MapAgreement>& agreement, std::vector<std::string>& notes) {
+    if (sidecar.height_scale) return *sidecar.height_scale;
+    const float usual = Material{}.height_scale;
+    if (!agreement) {
+        notes.push_back("height_scale " + number(usual) + " assumed");
+        return usual;
+    }
+    const double strength = std::sqrt((agreement->x * agreement->x + agreement->y * agreement->y) / 2);
+    if (strength < strong_agreement) {
+        notes.push_back("height_scale " + number(usual) + " assumed: the maps agree too little (" + number(strength, "%.2f") + ") to imply one");
+        return usual;
+    }
+    const auto implied = static_cast<float>(agreement->height_scale);
+    const float used = std::clamp(implied, least_height_scale, most_height_scale);
+    notes.push_back("height_scale " + number(used) + (used == implied ? " follows from the slopes of height and normals"
+                    : "; the slopes of height and normals together imply " + number(implied) + ", which is outside the useful range " + number(least_height_scale) + " to " + number(most_height_scale)));
+    return used;
 }
 
 }  // namespace
@@ -201,9 +298,15 @@ MaterialFiles find_material_files(const fs::path& folder, std::vector<std::strin
         if (!passed_over.empty()) notes.push_back(std::string(role_name) + " is " + candidates.front().filename().string() + ", not " + passed_over);
         return candidates.front();
     };
-    files.colour = choose(MapRole::colour, "colour");
-    files.height = choose(MapRole::height, "height");
-    files.normal = choose(MapRole::normal, "normal");
+    MaterialSidecar sidecar;
+    if (files.sidecar) sidecar = read_sidecar(*files.sidecar);
+    const auto find = [&](const std::optional<std::string>& named, MapRole role, const char* role_name) -> std::optional<fs::path> {
+        if (named) return folder / *named;
+        return choose(role, role_name);
+    };
+    files.colour = find(sidecar.colour, MapRole::colour, "colour");
+    files.height = find(sidecar.height, MapRole::height, "height");
+    files.normal = find(sidecar.normal, MapRole::normal, "normal");
     if (!files.height && !files.normal) {
         const std::string advice = "a material needs a height or a normal map, with a name like height.png, rock_disp.png, rock_normal.png or rock_nor_gl.exr";
         if (pictures.empty()) throw Error("load material", folder.string(), "there is no picture in it", advice);
@@ -217,13 +320,27 @@ Material load_material(const MaterialFiles& files) {
     material.name = name_of(files);
     if (!files.height && !files.normal)
         throw Error("load material", material.name, "neither height nor normal was given", "name at least one of the two");
+    MaterialSidecar sidecar;
+    if (files.sidecar) sidecar = read_sidecar(*files.sidecar);
     if (files.height) material.height = read_height(*files.height, material.notes);
-    if (files.normal) material.normal = read_normal(*files.normal);
+    if (files.normal) material.normal = read_normal(*files.normal, material.notes);
     if (files.colour) {
         material.colour = read_colour(*files.colour);
     } else {
         material.notes.push_back("no colour map; a neutral grey stands in");
     }
+
+    std::optional<MapAgreement> agreement;
+    if (files.height && files.normal) agreement = compare_maps(material.height, *material.normal);
+    if (files.height && is_inverted(files, sidecar, agreement, material.notes))
+        for (float& h : material.height.texels.texels) h = 1 - h;
+    if (files.normal && is_green_down(files, sidecar, agreement, material.notes))
+        for (std::size_t i = 1; i < material.normal->texels.size(); i += 3) material.normal->texels[i] *= -1;
+
+    material.height_scale = height_scale_of(sidecar, agreement, material.notes);
+    if (sidecar.zero_level) material.zero_level = *sidecar.zero_level;
+    else material.notes.push_back("zero_level " + number(material.zero_level) + " assumed: the relief is carved below the polygon");
+    material.physical_size_m = sidecar.physical_size_m;
     return material;
 }
 

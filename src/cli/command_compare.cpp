@@ -17,7 +17,7 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line) {
         CompareSettings settings;
         std::vector<std::string> materials, techniques, views;
         std::string size = "640x360", shadow = "hard";
-        int texels = 1024;
+        int texels = 512;
         bool no_cache = false, no_sweep = false, quiet = false, json = false;
     };
     auto o = std::make_shared<Options>();
@@ -28,8 +28,8 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line) {
     verb->add_option("--view", o->views, "grazing, middle, steep or degrees above the plane; may be repeated (default: the three)");
     verb->add_option("--size", o->size, "picture size, WIDTHxHEIGHT")->capture_default_str();
     verb->add_option("--runs", o->settings.runs, "timed runs of each technique, interleaved")->check(CLI::Range(1, 10000))->capture_default_str();
-    verb->add_option("--samples", o->settings.samples, "samples per pixel of pictures and reference: 1, 4, 9 or 16")
-        ->check(CLI::IsMember({1, 4, 9, 16}))
+    verb->add_option("--samples", o->settings.samples, "samples per pixel of pictures and reference: 1, 5, 9 or 25")
+        ->check(CLI::IsMember({1, 5, 9, 25}))
         ->capture_default_str();
     verb->add_option("--shadow", o->shadow, "none or hard")->check(CLI::IsMember({"none", "hard"}))->capture_default_str();
     verb->add_option("--texels", o->texels, "edge of the procedural materials' maps")->check(CLI::Range(1, 8192))->capture_default_str();
@@ -57,9 +57,9 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line) {
         if (o->materials.empty())
             for (const Scene& scene : scenes()) o->materials.emplace_back(scene.id);
         for (const std::string& folder : o->materials)
-            s.materials.push_back({.folder = folder, .colour = {}, .height = {}, .normal = {}, .procedural_size = o->texels, .threads = s.threads});
+            s.materials.push_back({.folder = folder, .procedural_size = o->texels, .threads = s.threads});
         const Results results = compare(s, progress_display(o->quiet));
-        if (o->json) std::printf("%s\n", to_json(results).dump(2).c_str());
+        if (o->json) std::printf("%s\n", results_json(results).c_str());
         if (!o->quiet) std::fprintf(stderr, "Report: %s/index.html\n", s.out.c_str());
     });
 }

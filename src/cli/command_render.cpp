@@ -19,7 +19,7 @@ void add_render_command(CLI::App& app) {
         RenderSettings settings;
         std::string technique, view = "middle", size = "1280x720", shadow = "hard";
         std::vector<std::string> set;
-        int samples = 4;
+        int samples = 5;
         bool no_cache = false, json = false, quiet = false;
     };
     auto o = std::make_shared<Options>();
@@ -29,7 +29,7 @@ void add_render_command(CLI::App& app) {
     verb->add_option("--set", o->set, "knob=value; may be repeated (relievo list knobs)");
     verb->add_option("--view", o->view, "grazing, middle, steep or degrees above the plane")->capture_default_str();
     verb->add_option("--size", o->size, "picture size, WIDTHxHEIGHT")->capture_default_str();
-    verb->add_option("--samples", o->samples, "samples per pixel: 1, 4, 9 or 16")->check(CLI::IsMember({1, 4, 9, 16}))->capture_default_str();
+    verb->add_option("--samples", o->samples, "samples per pixel: 1, 5, 9 or 25")->check(CLI::IsMember({1, 5, 9, 25}))->capture_default_str();
     verb->add_option("--shadow", o->shadow, "none or hard")->check(CLI::IsMember({"none", "hard"}))->capture_default_str();
     verb->add_option("--device", o->settings.device, "software, or part of a device's name (relievo list devices)");
     verb->add_flag("--no-cache", o->no_cache, "bake every map anew");

@@ -3,6 +3,7 @@
 #include "cli/interrupt.h"
 #include "core/error.h"
 #include "core/suggest.h"
+#include "core/version.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -34,7 +35,7 @@ int run(int argc, char** argv) {
     CLI::App app{"relievo compares the techniques that make a flat polygon look carved against exact ground truth."};
     app.name("relievo");
     app.footer(examples);
-    app.set_version_flag("--version", "relievo " RELIEVO_VERSION);
+    app.set_version_flag("--version", "relievo " + std::string(relievo::version));
     app.require_subcommand(1);
     relievo::add_compare_command(app, {joined(argc, argv)});
     relievo::add_render_command(app);
@@ -42,6 +43,7 @@ int run(int argc, char** argv) {
     relievo::add_bake_command(app);
     relievo::add_report_command(app);
     relievo::add_list_command(app);
+    relievo::add_docs_command(app);
     if (argc == 1) {
         std::fputs(app.help().c_str(), stderr);
         return 2;

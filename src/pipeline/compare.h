@@ -22,7 +22,7 @@ struct CompareSettings {
     int width = 640;
     int height = 360;
     int runs = 11;                           // timed runs of each technique, interleaved
-    int samples = 4;                         // samples per pixel of every picture and of the reference: 1, 4, 9 or 16
+    int samples = 5;                         // samples per pixel of every picture and of the reference: 1, 5, 9 or 25
     ShadowMode shadow = ShadowMode::hard;
     bool sweep = true;                       // also run each technique over its budget knob, for plots and equal-error tables
     bool use_cache = true;
@@ -34,7 +34,8 @@ struct CompareSettings {
 // pictures, times aside, do not depend on threads or on the run.
 Results compare(const CompareSettings& settings, const Progress& progress);
 
-// Sub-pixel sample positions of an n x n grid, the pixel's centre first; samples is a square number up to 16.
+// Sub-pixel sample positions, in pixels from the centre, the centre first: it alone (1), with a rotated square around it (5), or in
+// the middle of a regular grid (9, 25).
 std::vector<Vec2f> sample_offsets(int samples);
 
 }  // namespace relievo

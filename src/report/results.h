@@ -2,6 +2,7 @@
 // plots. results.json holds exactly this; results.csv its rows; the page is made from it and from the catalogue.
 #pragma once
 
+#include "core/legend.h"
 #include "core/map_set.h"
 #include "core/measurement.h"
 
@@ -30,7 +31,9 @@ struct Row {
     std::string error_image;      // where it is wrong, in the colours of Results::error_legend
     std::string reference_image;  // the exact answer at the same size, same exposure
     std::string fetches_image;    // cost per pixel, in the colours of Results::fetches_legend
-    std::string pixels;           // script with the values behind the pictures (pixels.h), for the page's inspector
+    std::string pixels;           // scripts with the values behind the pictures (pixels.h), for the page's inspector:
+    std::string reference_pixels; //   the row's own, and those of the reference
+    std::string where;            // where in the picture it is wrong, in words (pixels.h); may be empty
     std::string no_picture;       // why a path is empty, where one is; a general sentence stands in when this is empty too
 };
 
@@ -60,18 +63,6 @@ struct Manifest {
     double seconds = 0;  // the whole comparison
     std::string docs;    // where the chapters are (folder or address); empty: the page links to none
     std::vector<MaterialNote> materials;
-};
-
-struct LegendStop {
-    std::string label;   // "4"
-    std::string colour;  // CSS, "#rrggbb"
-};
-
-// How a picture's colours are to be read, smallest value first; the page blends linearly from stop to stop.
-struct Legend {
-    std::string title;
-    std::string unit;
-    std::vector<LegendStop> stops;
 };
 
 // The maps' names, which belong to a table this folder does not see.
