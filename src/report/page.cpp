@@ -57,7 +57,7 @@ Json technique_json(const Technique& t, const Results& results) {
 
 struct PageData {
     const Results& results;
-    Words techniques, materials, views, reasons;
+    Words techniques, materials, views, reasons, settings;
 
     explicit PageData(const Results& r) : results(r) {
         // The catalogue's order is that of the years; only what was run is shown, and what the catalogue does not know comes last.
@@ -72,7 +72,7 @@ struct PageData {
                   {"e", rounded(r.elevation_deg)}};
         json["k"] = Json::object();
         for (const auto& [id, value] : r.knobs) json["k"][id] = rounded(value);
-        json["s"] = setting_text(r.knobs);
+        json["s"] = settings.index(setting_text(r.knobs));
         Json numbers = Json::array();
         numbers.push_back(r.m.missed_first_hit && r.m.early_hit ? rounded(*r.m.missed_first_hit + *r.m.early_hit) : Json(nullptr));
         Json missing = Json::object();
@@ -126,6 +126,7 @@ struct PageData {
         }
         json["views"] = views.list;
         json["reasons"] = reasons.list;
+        json["settings"] = settings.list;
         const auto legend = [](const Legend& l) {
             Json stops = Json::array();
             for (const LegendStop& s : l.stops) stops.push_back({s.label, s.colour});

@@ -11,6 +11,8 @@ const reason_of = (row, id) => {
 };
 const no_picture_reason = (row) => (row && row.x !== undefined ? page.reasons[row.x] : "this picture was not made");
 
+for (const row of [...page.rows, ...page.sweep]) row.s = page.settings[row.s];
+
 const rows_by_place = new Map();  // "material/view" -> rows in the order of the techniques
 for (const row of page.rows) {
     const place = row.m + "/" + row.v;
