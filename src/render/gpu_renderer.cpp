@@ -33,7 +33,8 @@ struct GpuRenderer::State {
                         device.info().name + " draws 1 to " + std::to_string(limit) + " pixels a side");
         const vk::Extent2D extent{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
         auto it = targets.find(&host);
-        if (it == targets.end() || it->second.extent != extent) it = targets.insert_or_assign(&host, make_targets(device, host, width, height)).first;
+        if (it == targets.end() || it->second.extent != extent)
+            it = targets.insert_or_assign(&host, make_targets(device, host, width, height)).first;
         return it->second;
     }
 
@@ -42,8 +43,9 @@ struct GpuRenderer::State {
         TargetSet& to = targets_of(what.host, width, height);
         if (to.read.empty())
             for (const gpu::Image& image : to.images)
-                to.read.push_back(gpu::make_buffer(device, vk::DeviceSize{to.extent.width} * to.extent.height * (image.format == F::eR32Sfloat ? 4 : 16),
-                                                   vk::BufferUsageFlagBits::eTransferDst));
+                to.read.push_back(gpu::make_buffer(
+                    device, vk::DeviceSize{to.extent.width} * to.extent.height * (image.format == F::eR32Sfloat ? 4 : 16),
+                    vk::BufferUsageFlagBits::eTransferDst));
         pass.pipeline(what);
         device.run([&](const vk::raii::CommandBuffer& commands) {
             std::vector<vk::ImageView> views;
@@ -53,7 +55,8 @@ struct GpuRenderer::State {
             }
             pass.record(commands, what, views, to.extent);
             for (std::size_t i = 0; i < to.images.size(); ++i) {
-                gpu::transition(commands, to.images[i], vk::ImageLayout::eColorAttachmentOptimal, vk::ImageLayout::eTransferSrcOptimal);
+                gpu::transition(commands, to.images[i], vk::ImageLayout::eColorAttachmentOptimal,
+                                vk::ImageLayout::eTransferSrcOptimal);
                 gpu::read_back(commands, to.images[i], to.read[i]);
             }
         });
@@ -110,7 +113,12 @@ Frame GpuRenderer::draw(const Stage& stage, const GpuMaterial& material, const T
         const bool shadow = settings.shadow == ShadowMode::hard;
         assert(!settings.offsets.empty());
         state_->scene.update(stage, width, height, {0, 0});
-        const auto facts = state_->draw({.host = record_host, .technique = &technique, .params = params, .shadow = shadow, .material = material, .scene = state_->scene},
+        const auto facts = state_->draw({.host = record_host,
+                                         .technique = &technique,
+                                         .params = params,
+                                         .shadow = shadow,
+                                         .material = material,
+                                         .scene = state_->scene},
                                         width, height);
         Frame frame(width, height);
         frame.source = "gpu: " + device_name();
@@ -129,8 +137,13 @@ Frame GpuRenderer::draw(const Stage& stage, const GpuMaterial& material, const T
         }
         for (const Vec2f offset : settings.offsets) {
             state_->scene.update(stage, width, height, offset);
-            const float* colour = state_->draw({.host = shade_host, .technique = &technique, .params = params, .shadow = shadow, .material = material,
-                                                .scene = state_->scene, .background = stage.lighting.background},
+            const float* colour = state_->draw({.host = shade_host,
+                                                .technique = &technique,
+                                                .params = params,
+                                                .shadow = shadow,
+                                                .material = material,
+                                                .scene = state_->scene,
+                                                .background = stage.lighting.background},
                                                width, height)[0];
             for (std::size_t i = 0; i < pixels; ++i)
                 for (std::size_t c = 0; c < 3; ++c) frame.colour.texels[3 * i + c] += colour[4 * i + c];
@@ -147,13 +160,18 @@ std::vector<std::vector<double>> GpuRenderer::time(const Stage& stage, const Gpu
         State& s = *state_;
         TargetSet& to = s.targets_of(shade_host, settings.width, settings.height);
         const vk::ImageView view = *to.images[0].view;
-        const vk::raii::QueryPool stamps(s.device.handle(), vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp, .queryCount = 2});
+        const vk::raii::QueryPool stamps(s.device.handle(),
+                                         vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp, .queryCount = 2});
         s.scene.update(stage, settings.width, settings.height, settings.offsets.empty() ? Vec2f{} : settings.offsets[0]);
         std::vector<std::vector<double>> times(timed.size());
         for (int run = -1; run < runs; ++run) {  // run -1 is not measured: it makes pipelines and warms caches
             for (std::size_t t = 0; t < timed.size(); ++t) {
-                const HeightFieldPass::Draw draw{.host = shade_host, .technique = timed[t].technique, .params = timed[t].params,
-                                                 .shadow = settings.shadow == ShadowMode::hard, .material = material, .scene = s.scene,
+                const HeightFieldPass::Draw draw{.host = shade_host,
+                                                 .technique = timed[t].technique,
+                                                 .params = timed[t].params,
+                                                 .shadow = settings.shadow == ShadowMode::hard,
+                                                 .material = material,
+                                                 .scene = s.scene,
                                                  .background = stage.lighting.background};
                 s.pass.pipeline(draw);
                 s.device.run([&](const vk::raii::CommandBuffer& commands) {
@@ -163,8 +181,9 @@ std::vector<std::vector<double>> GpuRenderer::time(const Stage& stage, const Gpu
                     s.pass.record(commands, draw, {&view, 1}, to.extent);
                     commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *stamps, 1);
                 });
-                const auto [result, ticks] = stamps.getResults<std::uint64_t>(0, 2, 2 * sizeof(std::uint64_t), sizeof(std::uint64_t),
-                                                                              vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+                const auto [result, ticks] =
+                    stamps.getResults<std::uint64_t>(0, 2, 2 * sizeof(std::uint64_t), sizeof(std::uint64_t),
+                                                     vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
                 if (result != vk::Result::eSuccess) throw Error("time", "a picture on " + device_name(), vk::to_string(result));
                 if (run >= 0) times[t].push_back(static_cast<double>(ticks[1] - ticks[0]) * s.device.nanoseconds_per_tick() * 1e-6);
             }
@@ -183,24 +202,31 @@ std::vector<GpuRenderer::Cast> GpuRenderer::cast(const GpuMaterial& material, co
         constexpr std::size_t most = std::size_t{1} << 20;
         for (std::size_t begin = 0; begin < rays.size(); begin += most) {
             const auto part = rays.subspan(begin, std::min(most, rays.size() - begin));
-            const auto in = gpu::make_buffer(s.device, part.size() * sizeof(glsl::CastRay), vk::BufferUsageFlagBits::eStorageBuffer);
-            const auto out = gpu::make_buffer(s.device, part.size() * sizeof(glsl::CastHit), vk::BufferUsageFlagBits::eStorageBuffer);
+            const auto in =
+                gpu::make_buffer(s.device, part.size() * sizeof(glsl::CastRay), vk::BufferUsageFlagBits::eStorageBuffer);
+            const auto out =
+                gpu::make_buffer(s.device, part.size() * sizeof(glsl::CastHit), vk::BufferUsageFlagBits::eStorageBuffer);
             for (std::size_t i = 0; i < part.size(); ++i) {
                 const glsl::SurfaceRay& r = part[i];
-                in.as<glsl::CastRay>()[i] = {r.uv.x, r.uv.y, r.uv_per_height.x, r.uv_per_height.y, r.view.x, r.view.y, r.view.z,
-                                             r.height_scale, r.zero_level, r.z_start, r.z_end, r.lod};
+                in.as<glsl::CastRay>()[i] = {r.uv.x,   r.uv.y,         r.uv_per_height.x, r.uv_per_height.y, r.view.x, r.view.y,
+                                             r.view.z, r.height_scale, r.zero_level,      r.z_start,         r.z_end,  r.lod};
             }
             const auto set = make_descriptor_set(s.device, s.pass.layout().cast, {{vk::DescriptorType::eStorageBuffer, 2}});
-            const vk::DescriptorBufferInfo buffers[] = {{.buffer = *in.handle, .range = VK_WHOLE_SIZE}, {.buffer = *out.handle, .range = VK_WHOLE_SIZE}};
-            s.device.handle().updateDescriptorSets(
-                vk::WriteDescriptorSet{.dstSet = set.handle, .dstBinding = 0, .descriptorCount = 2, .descriptorType = vk::DescriptorType::eStorageBuffer, .pBufferInfo = buffers},
-                {});
+            const vk::DescriptorBufferInfo buffers[] = {{.buffer = *in.handle, .range = VK_WHOLE_SIZE},
+                                                        {.buffer = *out.handle, .range = VK_WHOLE_SIZE}};
+            s.device.handle().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set.handle,
+                                                                          .dstBinding = 0,
+                                                                          .descriptorCount = 2,
+                                                                          .descriptorType = vk::DescriptorType::eStorageBuffer,
+                                                                          .pBufferInfo = buffers},
+                                                   {});
             const vk::Pipeline pipeline = s.pass.cast_pipeline(technique);
             s.device.run([&](const vk::raii::CommandBuffer& commands) {
                 const auto& layout = *s.pass.layout().cast_pipeline;
                 commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline);
                 commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, layout, 0, {material.maps(), set.handle}, {});
-                commands.pushConstants<DrawUniforms>(layout, vk::ShaderStageFlagBits::eCompute, 0, DrawUniforms{params, {material.height_scale(), material.zero_level()}});
+                commands.pushConstants<DrawUniforms>(layout, vk::ShaderStageFlagBits::eCompute, 0,
+                                                     DrawUniforms{params, {material.height_scale(), material.zero_level()}});
                 commands.dispatch(static_cast<std::uint32_t>((part.size() + 63) / 64), 1, 1);
                 gpu::full_barrier(commands);
             });

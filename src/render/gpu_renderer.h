@@ -32,7 +32,8 @@ struct PictureSettings {
     int width = 0;
     int height = 0;
     ShadowMode shadow = ShadowMode::hard;  // cast only by techniques that claim self_shadow
-    std::vector<Vec2f> offsets{{0, 0}};    // samples per pixel, offset from its centre in pixels; colour averages them in linear light
+    std::vector<Vec2f> offsets{
+        {0, 0}};  // samples per pixel, offset from its centre in pixels; colour averages them in linear light
 };
 
 class GpuRenderer {
