@@ -32,6 +32,7 @@ struct DescriptorSet {
     vk::raii::DescriptorPool pool = nullptr;
     vk::DescriptorSet handle;
 };
-DescriptorSet make_descriptor_set(const gpu::Device& device, const vk::raii::DescriptorSetLayout& layout, std::initializer_list<vk::DescriptorPoolSize> sizes);
+DescriptorSet make_descriptor_set(const gpu::Device& device, const vk::raii::DescriptorSetLayout& layout,
+                                  std::initializer_list<vk::DescriptorPoolSize> sizes);
 
 }  // namespace relievo
