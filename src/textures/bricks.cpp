@@ -77,7 +77,7 @@ SurfaceFunction bricks(const Detail& detail) {
     const FractalNoise grain({.cells_u = 96, .cells_v = 96, .octaves = 3, .gain = 0.8f}, detail, 4);
     const FractalNoise drag({.cells_u = 14, .cells_v = 110, .octaves = 2}, detail, 5);
     const FractalNoise weather({.cells_u = 3, .cells_v = 3, .octaves = 4, .gain = 0.55f}, detail, 6);
-    const float wall_width = std::max(0.004f, 1.5f * detail.texel_uv);
+    const float wall_width = std::max(0.004f, 1.5f * detail.sample_uv);
 
     return [=](Vec2f uv) -> SurfacePoint {
         const float y = uv.y * courses;

@@ -57,7 +57,7 @@ FractalNoise::FractalNoise(FractalSpec spec, const Detail& detail, std::uint32_t
         const Octave octave{spec.cells_u << k, spec.cells_v << k, hash(detail.seed, salt * 16u + static_cast<std::uint32_t>(k)), weight};
         sum += weight;
         // A cell of two texels is the raster's limit; the octave is whole from four on.
-        const float cell_texels = 1 / (static_cast<float>(std::max(octave.cells_u, octave.cells_v)) * detail.texel_uv);
+        const float cell_texels = 1 / (static_cast<float>(std::max(octave.cells_u, octave.cells_v)) * detail.sample_uv);
         const float kept = k == 0 ? std::max(ramp(2, 4, cell_texels), 1e-3f) : ramp(2, 4, cell_texels);
         if (kept <= 0) continue;
         octaves_[static_cast<std::size_t>(count_)] = octave;

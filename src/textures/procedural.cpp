@@ -86,10 +86,10 @@ Material procedural_material(std::string_view id, int size, std::uint32_t seed, 
                     "choose a size from 1 to 16384");
     }
 
-    const SurfaceFunction surface = entry->surface({.seed = seed, .texel_uv = 1.0f / static_cast<float>(size)});
-    // Below 512 texels the finest features (joints, pins, letters) fall between texel centres, so a texel averages several samples.
+    // Below 512 texels the finest features (joints, nails, letters) fall between texel centres, so a texel averages several samples.
     const int split = (511 + size) / size;
     const float step = 1.0f / static_cast<float>(size * split);
+    const SurfaceFunction surface = entry->surface({.seed = seed, .sample_uv = step});
 
     ImageF height(size, size, 1);
     Image8 colour(size, size, 4);

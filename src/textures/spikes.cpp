@@ -9,21 +9,21 @@ namespace relievo {
 
 namespace {
 
-constexpr int pins_across = 20;
+constexpr int pins_across = 28;
 constexpr int planks = 4;
 
 // At 30 degrees and the scene's height_scale of 0.12 a ray moves 0.12 / tan 30 = 0.208 UV while it falls through the slab; a 64th of
-// that is 0.00325 UV. A cone of this radius at its foot is that wide only at half the height of the tallest.
-constexpr float foot_radius = 0.0031f;
+// that is 0.00325 UV. A nail is twice this wide at half its height, three times at the foot, once near the point.
+constexpr float nail_radius = 0.00125f;
 
 }  // namespace
 
 SurfaceFunction spikes(const Detail& detail) {
-    const FractalNoise fibre({.cells_u = 72, .cells_v = 5, .octaves = 3, .gain = 0.7f}, detail, 1);
+    const FractalNoise fibre({.cells_u = 84, .cells_v = 5, .octaves = 3, .gain = 0.8f}, detail, 1);
     const FractalNoise wear({.cells_u = 12, .cells_v = 8, .octaves = 3, .gain = 0.55f}, detail, 2);
     const FractalNoise swell({.cells_u = 3, .cells_v = 3, .octaves = 1}, detail, 3);
-    // A pin thinner than this would be there or not by chance of where the texel centres fall.
-    const float radius = std::max(foot_radius, 1.4f * detail.texel_uv);
+    // The nearest sample lies within 0.71 of the axis; were nails thinner than this, their lengths would be a matter of chance.
+    const float radius = std::max(nail_radius, 0.95f * detail.sample_uv);
     return [=](Vec2f uv) -> SurfacePoint {
         const Cellular c = cellular(uv, {.cells_u = pins_across, .cells_v = pins_across, .jitter = 0.44f, .seed = detail.seed});
         Dice dice(c.id);
@@ -53,13 +53,14 @@ SurfaceFunction spikes(const Detail& detail) {
         const float stain = smooth_ramp(0.26f, 0.04f, length(bled) + 0.22f * worn + 0.08f * fibres);
         colour = mix(colour, Vec3f{0.330f, 0.215f, 0.150f}, 0.65f * stain);
         colour = mix(colour, Vec3f{0.090f, 0.080f, 0.075f}, gap);
-        if (d > 1.2f * radius) return {ground, colour};
+        if (d > 1.7f * radius) return {ground, colour};
 
         // Where the pin stands decides its length: fields of long ones, gaps of short ones, here and there a stump or none at all.
         const Vec2f foot = uv - c.offset / pins_across;
         const float fate = dice.roll();
-        const float reach = saturate(0.66f + 0.40f * swell(foot) + dice.roll(-0.26f, 0.26f)) * (fate < 0.10f ? 0.4f : 1.0f);
-        const float pin = fate > 0.95f ? 0.0f : reach * (1 - d / (radius * dice.roll(0.92f, 1.03f)));
+        const float reach = saturate(0.70f + 0.40f * swell(foot) + dice.roll(-0.26f, 0.26f)) * (fate < 0.10f ? 0.4f : 1.0f);
+        const float out = d / (radius * dice.roll(0.92f, 1.05f));
+        const float pin = fate > 0.95f ? 0.0f : reach * (smooth_ramp(1.5f, 0.4f, out) - 0.06f * out);
         const float bright = dice.roll();
         if (pin > ground) {
             // Rust at the foot, dark iron along the shaft, rubbed bright at the point; no two are alike.

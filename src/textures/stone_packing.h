@@ -16,6 +16,7 @@ struct Stone {
     Vec2f centre;
     Vec2f half_axis;   // from the centre to one end of its core segment
     float radius;      // UV
+    float per_length;  // 1 / squared length of half_axis; 0 for a round stone
     std::uint32_t id;  // random bits of its own
 };
 
