@@ -28,12 +28,12 @@ SurfaceFunction dunes(const Detail& detail) {
         const float t = phase - static_cast<float>(floor_index(phase));
         // Windward: a concave foot, then an even rise to the brink. Lee: sand at rest at its steepest angle, with a soft toe.
         const float windward = t * t * (2.55f - 1.10f * t) * 1.25f;
-        const float fall = 1.35f * (1 - t) / 0.42f;
+        const float fall = 1.35f * (1 - t) / 0.38f;
         const float lee = fall * fall / (fall + 0.25f);
         const float wave = smooth_min(windward, lee, 0.09f);
         const float size = 0.78f + 0.30f * stature(uv);
 
-        const float slip = smooth_ramp(0.61f, 0.66f, t) * smooth_ramp(0.98f, 0.90f, t);
+        const float slip = smooth_ramp(0.64f, 0.69f, t) * smooth_ramp(0.98f, 0.90f, t);
         const float ripple = ripples->at(uv);
         // A slip face is too steep and too young for ripples; in hollows they are largest.
         const float strength = (1 - 0.92f * slip) * (0.75f + 0.5f * smooth_ramp(0.6f, 0.0f, wave)) * (0.8f + 0.5f * stature(uv));

@@ -9,7 +9,7 @@ namespace relievo {
 
 namespace {
 
-constexpr int pins_across = 28;
+constexpr int pins_across = 25;
 constexpr int planks = 4;
 
 // At 30 degrees and the scene's height_scale of 0.12 a ray moves 0.12 / tan 30 = 0.208 UV while it falls through the slab; a 64th of
@@ -20,6 +20,7 @@ constexpr float nail_radius = 0.00125f;
 
 SurfaceFunction spikes(const Detail& detail) {
     const FractalNoise fibre({.cells_u = 84, .cells_v = 5, .octaves = 3, .gain = 0.8f}, detail, 1);
+    const FractalNoise hair({.cells_u = 230, .cells_v = 14, .octaves = 1}, detail, 4);
     const FractalNoise wear({.cells_u = 12, .cells_v = 8, .octaves = 3, .gain = 0.55f}, detail, 2);
     const FractalNoise swell({.cells_u = 3, .cells_v = 3, .octaves = 1}, detail, 3);
     // The nearest sample lies within 0.71 of the axis; were nails thinner than this, their lengths would be a matter of chance.
@@ -34,7 +35,7 @@ SurfaceFunction spikes(const Detail& detail) {
         const int plank = lattice_index(floor_index(across), planks);
         Dice tree(hash(detail.seed, 0x91a0u + static_cast<std::uint32_t>(plank)));
         const Vec2f own = uv + Vec2f{0, tree.roll()};
-        const float fibres = fibre(own);
+        const float fibres = fibre(own) + 0.55f * hair(own);
         const float worn = wear(own);
         const float in_plank = across - static_cast<float>(floor_index(across)) - 0.5f;
         const float ring = in_plank * tree.roll(5.0f, 9.0f) + 1.1f * worn + tree.roll();
@@ -46,12 +47,12 @@ SurfaceFunction spikes(const Detail& detail) {
                               0.020f * smooth_ramp(0.012f, 0.004f, edge)) * (1 - gap);
 
         const float lightness = tree.roll(0.82f, 1.12f);
-        Vec3f colour = mix(Vec3f{0.430f, 0.375f, 0.320f}, Vec3f{0.300f, 0.245f, 0.200f}, saturate(0.30f + 0.45f * late_wood + 0.60f * fibres));
-        colour = mix(colour, Vec3f{0.455f, 0.440f, 0.415f}, 0.55f * smooth_ramp(-0.1f, 0.6f, worn)) * lightness;
+        Vec3f colour = mix(Vec3f{0.365f, 0.310f, 0.260f}, Vec3f{0.205f, 0.165f, 0.135f}, saturate(0.30f + 0.45f * late_wood + 0.65f * fibres));
+        colour = mix(colour, Vec3f{0.375f, 0.355f, 0.330f} * (1 + 0.25f * fibres), 0.40f * smooth_ramp(0.0f, 0.7f, worn)) * lightness;
         // Rust has bled from the nails, farther along the fibres than across.
         const Vec2f bled{c.offset.x, c.offset.y * 0.42f};
-        const float stain = smooth_ramp(0.26f, 0.04f, length(bled) + 0.22f * worn + 0.08f * fibres);
-        colour = mix(colour, Vec3f{0.330f, 0.215f, 0.150f}, 0.65f * stain);
+        const float stain = smooth_ramp(0.26f, 0.04f, length(bled) + 0.25f * worn + 0.16f * fibres);
+        colour = mix(colour, Vec3f{0.270f, 0.170f, 0.115f} * (1 - 0.25f * fibres), 0.55f * stain);
         colour = mix(colour, Vec3f{0.090f, 0.080f, 0.075f}, gap);
         if (d > 1.7f * radius) return {ground, colour};
 
