@@ -10,9 +10,9 @@ namespace relievo {
 
 // The section of a groove from its edge inward: a near-sheer wall, then a sloping bed (V-cut) down to a floor.
 struct Section {
-    float wall = 0.4f;   // depth of the wall, in heights
-    float slope = 0;     // depth gained per UV beyond the wall
-    float floor = 1;     // greatest depth
+    float wall = 0.4f;  // depth of the wall, in heights
+    float slope = 0;    // depth gained per UV beyond the wall
+    float floor = 1;    // greatest depth
 };
 
 // Figures in UV about the tile's centre, so that 0 is the middle.

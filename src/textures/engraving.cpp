@@ -15,8 +15,8 @@ namespace relievo {
 
 namespace {
 
-constexpr float panel = 0.345f;   // half edge of the tooled field
-constexpr float slab = 0.4955f;   // half edge of the slab; slabs stand a joint apart
+constexpr float panel = 0.345f;  // half edge of the tooled field
+constexpr float slab = 0.4955f;  // half edge of the slab; slabs stand a joint apart
 
 std::vector<Groove> drawing() {
     const Section letters{.wall = 0.55f, .slope = 42, .floor = 0.93f};

@@ -12,8 +12,8 @@ namespace {
 constexpr int pins_across = 25;
 constexpr int planks = 4;
 
-// At 30 degrees and the scene's height_scale of 0.12 a ray moves 0.12 / tan 30 = 0.208 UV while it falls through the slab; a 64th of
-// that is 0.00325 UV. A nail is twice this wide at half its height, three times at the foot, once near the point.
+// At 30 degrees and the scene's height_scale of 0.12 a ray moves 0.12 / tan 30 = 0.208 UV while it falls through the slab; a 64th
+// of that is 0.00325 UV. A nail is twice this wide at half its height, three times at the foot, once near the point.
 constexpr float nail_radius = 0.00125f;
 
 }  // namespace
@@ -44,11 +44,14 @@ SurfaceFunction spikes(const Detail& detail) {
         const float edge = (0.5f - std::abs(in_plank)) / planks + 0.0010f * worn;
         const float gap = smooth_ramp(0.0055f, 0.0030f, edge);
         const float ground = (0.075f + 0.012f * tree.roll(-1, 1) + 0.0035f * late_wood + 0.009f * fibres + 0.005f * worn -
-                              0.020f * smooth_ramp(0.012f, 0.004f, edge)) * (1 - gap);
+                              0.020f * smooth_ramp(0.012f, 0.004f, edge)) *
+                             (1 - gap);
 
         const float lightness = tree.roll(0.82f, 1.12f);
-        Vec3f colour = mix(Vec3f{0.365f, 0.310f, 0.260f}, Vec3f{0.205f, 0.165f, 0.135f}, saturate(0.30f + 0.45f * late_wood + 0.65f * fibres));
-        colour = mix(colour, Vec3f{0.375f, 0.355f, 0.330f} * (1 + 0.25f * fibres), 0.40f * smooth_ramp(0.0f, 0.7f, worn)) * lightness;
+        Vec3f colour =
+            mix(Vec3f{0.365f, 0.310f, 0.260f}, Vec3f{0.205f, 0.165f, 0.135f}, saturate(0.30f + 0.45f * late_wood + 0.65f * fibres));
+        colour =
+            mix(colour, Vec3f{0.375f, 0.355f, 0.330f} * (1 + 0.25f * fibres), 0.40f * smooth_ramp(0.0f, 0.7f, worn)) * lightness;
         // Rust has bled from the nails, farther along the fibres than across.
         const Vec2f bled{c.offset.x, c.offset.y * 0.42f};
         const float stain = smooth_ramp(0.26f, 0.04f, length(bled) + 0.25f * worn + 0.16f * fibres);
@@ -68,7 +71,8 @@ SurfaceFunction spikes(const Detail& detail) {
             const float up = pin / std::max(reach, 0.1f);
             const Vec3f iron = mix(Vec3f{0.520f, 0.400f, 0.320f}, Vec3f{0.640f, 0.620f, 0.600f}, bright);
             const Vec3f point = mix(Vec3f{0.760f, 0.690f, 0.620f}, Vec3f{0.900f, 0.890f, 0.875f}, bright);
-            colour = mix(mix(Vec3f{0.480f, 0.310f, 0.200f}, iron, smooth_ramp(0.08f, 0.35f, up)), point, smooth_ramp(0.30f, 0.75f, up));
+            colour =
+                mix(mix(Vec3f{0.480f, 0.310f, 0.200f}, iron, smooth_ramp(0.08f, 0.35f, up)), point, smooth_ramp(0.30f, 0.75f, up));
         }
         return {std::max(pin, ground), colour};
     };

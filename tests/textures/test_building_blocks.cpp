@@ -29,13 +29,15 @@ TEST(curves, cos_turns_is_the_cosine) {
 }
 
 TEST(hash, floor_index_is_the_floor) {
-    for (const float x : {-2.0f, -1.5f, -1.0f, -0.001f, 0.0f, 0.999f, 1.0f, 7.25f}) EXPECT_EQ(floor_index(x), static_cast<int>(std::floor(x)));
+    for (const float x : {-2.0f, -1.5f, -1.0f, -0.001f, 0.0f, 0.999f, 1.0f, 7.25f})
+        EXPECT_EQ(floor_index(x), static_cast<int>(std::floor(x)));
     for (int i = -9; i < 9; ++i) EXPECT_EQ(lattice_index(i, 4), wrap_index(i, 4));
 }
 
 TEST(gradient_noise, vanishes_on_the_lattice_and_stays_in_range_with_mean_0) {
     for (int j = 0; j < 8; ++j) {
-        for (int i = 0; i < 8; ++i) EXPECT_NEAR(gradient_noise({static_cast<float>(i) / 8, static_cast<float>(j) / 8}, 8, 8, 3), 0, 1e-6);
+        for (int i = 0; i < 8; ++i)
+            EXPECT_NEAR(gradient_noise({static_cast<float>(i) / 8, static_cast<float>(j) / 8}, 8, 8, 3), 0, 1e-6);
     }
     double sum = 0;
     double squares = 0;

@@ -45,7 +45,8 @@ TEST_P(EachSurface, shows_no_seam_in_its_map) {
     const HeightField& h = m.height;
     const auto step = [&](int i) {
         double sum = 0;
-        for (int j = 0; j < h.height(); ++j) sum += std::abs(h.wrapped(i, j) - h.wrapped(i + 1, j)) + std::abs(h.wrapped(j, i) - h.wrapped(j, i + 1));
+        for (int j = 0; j < h.height(); ++j)
+            sum += std::abs(h.wrapped(i, j) - h.wrapped(i + 1, j)) + std::abs(h.wrapped(j, i) - h.wrapped(j, i + 1));
         return sum;
     };
     double worst = 0;
@@ -92,8 +93,8 @@ TEST_P(EachSurface, has_the_colours_of_a_surface_not_of_a_light) {
 }
 
 INSTANTIATE_TEST_SUITE_P(textures, EachSurface,
-                         testing::Values(Named{"bricks", bricks}, Named{"cobbles", cobbles}, Named{"spikes", spikes}, Named{"engraving", engraving},
-                                         Named{"dunes", dunes}),
+                         testing::Values(Named{"bricks", bricks}, Named{"cobbles", cobbles}, Named{"spikes", spikes},
+                                         Named{"engraving", engraving}, Named{"dunes", dunes}),
                          [](const auto& surface) { return std::string(surface.param.id); });
 
 double share_between(const HeightField& h, float low, float high) {
@@ -117,7 +118,7 @@ std::vector<double> slopes(const HeightField& h, double height_scale) {
 
 TEST(bricks, have_flat_joints_and_faces_with_little_between) {
     const Material m = procedural_material("bricks", 512, 1, 2);
-    EXPECT_GT(share_between(m.height, 0, 0.32f), 0.15);   // joints
+    EXPECT_GT(share_between(m.height, 0, 0.32f), 0.15);  // joints
     EXPECT_LT(share_between(m.height, 0, 0.32f), 0.35);
     EXPECT_GT(share_between(m.height, 0.65f, 1.1f), 0.55);  // faces
     EXPECT_LT(share_between(m.height, 0.32f, 0.6f), 0.12);  // walls: hardly any area
