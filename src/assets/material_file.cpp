@@ -117,10 +117,11 @@ HeightField read_height(const fs::path& file, std::vector<std::string>& notes) {
 
 ImageF read_normal(const fs::path& file, std::vector<std::string>& notes) {
     const ImageFileInfo info = read_image_info(file);
-    if (info.channels < 2) throw Error("load normal map", file.string(), "it has one channel", "a normal map has red and green at least; is this a height?");
+    if (info.channels < 2 || (info.channels == 2 && info.format == "png"))  // a PNG's second channel of two is alpha
+        throw Error("load normal map", file.string(), "it is grey", "a normal map has red and green at least; is this a height?");
     const ImageF image = read_image(file);
     ImageF normal(image.width, image.height, 3);
-    // Two channels (BC5) hold x and y; z follows from the length. Grey + alpha cannot be told from it and means nothing as normals.
+    // Two channels (BC5) hold x and y; z follows from the length.
     const bool rebuild_z = image.channels == 2;
     // Floating files may hold the components themselves in [-1,1]; any value below 0 says so.
     const bool is_signed = info.floating && std::any_of(image.texels.begin(), image.texels.end(), [](float x) { return x < 0; });

@@ -57,9 +57,9 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line) {
         if (o->materials.empty())
             for (const Scene& scene : scenes()) o->materials.emplace_back(scene.id);
         for (const std::string& folder : o->materials)
-            s.materials.push_back({.folder = folder, .colour = {}, .height = {}, .normal = {}, .procedural_size = o->texels, .threads = s.threads});
+            s.materials.push_back({.folder = folder, .procedural_size = o->texels, .threads = s.threads});
         const Results results = compare(s, progress_display(o->quiet));
-        if (o->json) std::printf("%s\n", to_json(results).dump(2).c_str());
+        if (o->json) std::printf("%s\n", results_json(results).c_str());
         if (!o->quiet) std::fprintf(stderr, "Report: %s/index.html\n", s.out.c_str());
     });
 }

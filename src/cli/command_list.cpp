@@ -2,8 +2,8 @@
 
 #include "core/error.h"
 #include "core/suggest.h"
-#include "gpu/device_list.h"
 #include "maps/map_kinds.h"
+#include "render/gpu_renderer.h"
 #include "scenes/scene.h"
 #include "techniques/catalogue.h"
 
@@ -74,8 +74,8 @@ Json knob_rows() {
 
 Json device_rows() {
     Json rows = Json::array();
-    for (const DeviceInfo& d : list_devices())
-        rows.push_back({{"name", d.name}, {"kind", d.software ? "software" : "GPU"}, {"driver", d.driver}});
+    for (const GpuDevice& d : gpu_devices())
+        rows.push_back({{"name", d.name}, {"kind", d.software ? "software" : "GPU"}, {"driver", d.driver}, {"lacks", d.lacks}});
     return rows;
 }
 

@@ -29,8 +29,8 @@ struct Legend {
     std::string title;
     std::string unit;
     std::string low_end, high_end;  // what the ends of the bar mean
-    std::vector<LegendStop> stops;
-    std::vector<LegendKey> keys;
+    std::vector<LegendStop> stops{};
+    std::vector<LegendKey> keys{};
 };
 
 }  // namespace relievo

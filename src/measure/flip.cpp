@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <numeric>
 
@@ -79,8 +77,8 @@ HalfKernel normalised_gaussian(double inverse_two_sigma_squared, int radius) {
     return half;
 }
 
-// Section 4.1.1: contrast sensitivity of the eye as Gaussians in space, g(x) = a sqrt(pi/b) exp(-pi^2 x^2 / b), x in degrees,
-// with the constants of table 1. The two-dimensional kernel is a function of the distance, so each Gaussian separates; only the
+// Spatial filtering (section 4.1): contrast sensitivity of the eye as Gaussians in space, g(x) = a sqrt(pi/b) exp(-pi^2 x^2 / b), x in degrees,
+// with the paper's constants. The two-dimensional kernel is a function of the distance, so each Gaussian separates; only the
 // blue-yellow one is a sum of two, whose shares follow from normalising their sum.
 struct ContrastFilters {
     HalfKernel achromatic, red_green, blue_yellow[2];
@@ -106,14 +104,14 @@ struct ContrastFilters {
     }
 };
 
-// Section 4.2: edges and points are found by the first and second derivative of a Gaussian, whose positive weights sum to one
+// Feature pipeline (section 4.2): edges and points are found by the first and second derivative of a Gaussian, whose positive weights sum to one
 // and whose negative weights to minus one. Both factors of exp(-(x^2 + y^2) / (2 sigma^2)) separate.
 struct FeatureFilters {
     HalfKernel gaussian, edge /* odd */, point /* even */;
     int radius;
 
     explicit FeatureFilters(double pixels_per_degree) {
-        const double sigma = 0.5 * 0.082 * pixels_per_degree;  // a feature is 0.082 degrees wide, equation 9
+        const double sigma = 0.5 * 0.082 * pixels_per_degree;  // a feature is 0.082 degrees wide
         radius = static_cast<int>(std::ceil(3 * sigma));
         std::vector<double> g, first, second;
         double sum = 0, first_positive = 0, second_positive = 0, second_negative = 0;
@@ -173,35 +171,20 @@ void convolve_row(const HalfKernel& w, int width, const float* padded_centre, fl
     convolve<symmetry>(w, width, out, [&](int k) { return padded_centre + k; }, [&](int k) { return padded_centre - k; });
 }
 
-// Down the column of every x: `first` is the row in question among rows `stride` apart.
+// Down the column of every x: `row` is the row in question among rows `stride` apart.
 template <Symmetry symmetry = Symmetry::even>
 void convolve_column(const HalfKernel& w, int width, const float* row, std::ptrdiff_t stride, float* out) {
     convolve<symmetry>(w, width, out, [&](int k) { return row + k * stride; }, [&](int k) { return row - k * stride; });
-}
-
-// Cube root of [0,1] by one guess from the exponent and two of Halley's steps: the loop vectorises, std::cbrt does not. Within
-// 3e-7 of exact.
-inline float cube_root(float x) {
-    // The bits of a float are nearly a logarithm; dividing them by three and mending the bias guesses the root within 4 %.
-    const auto bits = static_cast<float>(std::bit_cast<std::int32_t>(x));
-    float y = std::bit_cast<float>(static_cast<std::int32_t>(bits * (1.0f / 3.0f)) + 0x2a514067);
-    for (int i = 0; i < 2; ++i) {
-        const float cube = y * y * y;
-        y *= (cube + 2 * x) / (2 * cube + x);
-    }
-    return y;
 }
 
 // CIELAB's f.
 inline float lab_f(float t) {
     constexpr float delta = 6.0f / 29.0f;
     constexpr float linear_below = delta * delta * delta;
-    const float root = cube_root(std::max(t, linear_below));
-    const float line = t * (1 / (3 * delta * delta)) + 4.0f / 29.0f;
-    return t > linear_below ? root : line;
+    return t > linear_below ? std::cbrt(t) : t * (1 / (3 * delta * delta)) + 4.0f / 29.0f;
 }
 
-// L* and the Hunt-adjusted a*, b* (equation 5: colours are less colourful where it is dark) of linear RGB.
+// L* and the Hunt-adjusted a*, b* (colours are less colourful where it is dark) of linear RGB.
 inline void hunt_lab(const MatrixF& to_xyz, float r, float g, float b, float* lightness, float* a, float* b_out) {
     const float fx = lab_f(to_xyz.m[0][0] * r + to_xyz.m[0][1] * g + to_xyz.m[0][2] * b);
     const float fy = lab_f(to_xyz.m[1][0] * r + to_xyz.m[1][1] * g + to_xyz.m[1][2] * b);
@@ -212,7 +195,7 @@ inline void hunt_lab(const MatrixF& to_xyz, float r, float g, float b, float* li
     *b_out = 0.01f * l * 200 * (fy - fz);
 }
 
-// Equations 6 to 8: the exponent q_c makes large HyAB distances count less, then the range up to p_c of the largest possible
+// Error redistribution: the exponent q_c makes large HyAB distances count less, then the range up to p_c of the largest possible
 // distance (between green and blue) is given p_t of the scale.
 struct Redistribution {
     static constexpr double exponent = 0.7, knee_share = 0.4, knee_error = 0.95;
@@ -377,10 +360,10 @@ FlipResult flip(const ImageF& picture, const ImageF& reference, const FlipSettin
                 };
                 const float edges = std::abs(magnitude(p.edge_x, p.edge_y) - magnitude(q.edge_x, q.edge_y));
                 const float points = std::abs(magnitude(p.point_x, p.point_y) - magnitude(q.point_x, q.point_y));
-                // Equation 10 with q_f = 1/2; the largest magnitude is sqrt(2).
+                // Feature difference with q_f = 1/2; the largest magnitude is sqrt(2).
                 const float features = std::sqrt(std::max(edges, points) * static_cast<float>(1 / std::numbers::sqrt2));
 
-                // Equation 11: features make a colour difference more visible, never visible by themselves.
+                // Final difference: features make a colour difference more visible, never visible by themselves.
                 const float error = std::clamp(std::pow(colour, 1 - features), 0.0f, 1.0f);
                 result.error(i, y) = error;
                 sum += static_cast<double>(error);

@@ -1,6 +1,6 @@
 // The structural similarity index.
 //   Z. Wang, A. C. Bovik, H. R. Sheikh, E. P. Simoncelli: Image Quality Assessment: From Error Visibility to Structural Similarity.
-//   IEEE Transactions on Image Processing 13(4), 2004, section III-B: 11 x 11 Gaussian window of standard deviation 1.5 pixels,
+//   IEEE Transactions on Image Processing 13(4), 2004, section III: 11 x 11 Gaussian window of standard deviation 1.5 pixels,
 //   K1 = 0.01, K2 = 0.03.
 #pragma once
 

@@ -117,7 +117,7 @@ public:
         const fs::path out = settings_.out;
         make_folder(out);
         // Held from the beginning: an unwritable folder is known before the work, and an interrupted run leaves no results.
-        AtomicFile json(out / "results.json");
+        const AtomicFile json(out / "results.json");
 
         Results results;
         results.manifest = {.command = settings_.command,
@@ -146,8 +146,7 @@ public:
         results.manifest.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
         write_file_atomically(out / "results.csv", results_csv(results));
         write_file_atomically(out / "index.html", page_html(results));
-        json.write(results_json(results));
-        json.commit();
+        write_file_atomically(json.target(), results_json(results));
         if (const auto messages = gpu_.validation_messages(); !messages.empty())
             throw Error("trust", "the Vulkan calls of this run", "the validation layers said: " + messages.front());
         return results;

@@ -8,8 +8,8 @@
 namespace relievo {
 
 struct MaterialSource {
-    std::string folder;             // a folder, or the id of a procedural material; empty when files are named one by one
-    std::string colour, height, normal;  // explicit files; each optional
+    std::string folder = {};        // a folder, or the id of a procedural material; empty when files are named one by one
+    std::string colour = {}, height = {}, normal = {};  // explicit files; each optional
     int procedural_size = 512;      // texels along an edge
     unsigned seed = 1;
     int threads = 0;

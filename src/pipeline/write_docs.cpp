@@ -104,7 +104,7 @@ Ground make_ground(const Scene& scene, int texels, int width, int height, double
     std::vector<Map> wanted;
     for (const MapKind& m : map_kinds()) wanted.push_back(m.map);
     Ground ground{&scene, {}, {}, {}};
-    ground.baked = bake_maps(load_source({.folder = std::string(scene.id), .colour = {}, .height = {}, .normal = {}, .procedural_size = texels, .threads = threads}),
+    ground.baked = bake_maps(load_source({.folder = std::string(scene.id), .procedural_size = texels, .threads = threads}),
                              wanted, {.threads = threads});
     const Stage stage = stage_for(View{.id = "docs", .elevation_deg = elevation});
     ground.rays = quad_rays(stage, width, height, {0, 0});
@@ -251,7 +251,7 @@ private:
         s.stage = stage_for(View{.id = "figure", .elevation_deg = figure_elevation_deg});
         std::vector<Map> wanted;
         for (const MapKind& m : map_kinds()) wanted.push_back(m.map);
-        s.baked = bake_maps(load_source({.folder = std::string(scene.id), .colour = {}, .height = {}, .normal = {}, .procedural_size = figure_texels, .threads = threads_}),
+        s.baked = bake_maps(load_source({.folder = std::string(scene.id), .procedural_size = figure_texels, .threads = threads_}),
                             wanted, {.threads = threads_});
         s.material = gpu_.upload(s.baked.maps, s.baked.height_scale, s.baked.zero_level);
         for (const Vec2f o : settings_.offsets) s.rays.push_back(gpu_.rays(s.stage, *s.material, panel_width, panel_height, o));

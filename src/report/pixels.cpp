@@ -75,7 +75,7 @@ std::string base64(const std::vector<unsigned char>& bytes) {
 
 struct Planes {
     int width, height;
-    nlohmann::ordered_json names = nlohmann::ordered_json::array();
+    nlohmann::ordered_json names;
     std::vector<std::uint8_t> bytes;
 
     // value(x, y) -> byte
@@ -118,7 +118,7 @@ std::string pixel_script(const Frame& picture, const Frame& reference, const Ray
     Image<Judged> judged(picture.width, picture.height, 1);
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) judged(x, y) = judge(picture, reference, rays, settings, x, y);
-    Planes planes{.width = picture.width, .height = picture.height};
+    Planes planes{.width = picture.width, .height = picture.height, .names = nlohmann::ordered_json::array(), .bytes = {}};
     planes.add("verdict", [&](int x, int y) { return static_cast<std::uint8_t>(judged(x, y).verdict); });
     planes.add("offset_u", [&](int x, int y) { return offset_scale(judged(x, y).offset.x); });
     planes.add("offset_v", [&](int x, int y) { return offset_scale(judged(x, y).offset.y); });
@@ -143,7 +143,7 @@ std::string reference_pixel_script(const Frame& reference) {
         }
     }
     if (!(high > low)) low = 0, high = 1;
-    Planes planes{.width = reference.width, .height = reference.height};
+    Planes planes{.width = reference.width, .height = reference.height, .names = nlohmann::ordered_json::array(), .bytes = {}};
     planes.add_word("u", [&](int x, int y) { return word((reference.hit_uv(x, y, 0) - low) / (high - low)); });
     planes.add_word("v", [&](int x, int y) { return word((reference.hit_uv(x, y, 1) - low) / (high - low)); });
     planes.add_word("height", [&](int x, int y) { return word(reference.hit_height(x, y)); });

@@ -27,6 +27,7 @@ constexpr Technique table[] = {
         .shaded_normals = false,
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 0; },
+        .budget = {.missed = 0.0f, .uv_p99_texels = 14.5f},
         .limits = "no relief of any kind",
     },
     {
@@ -38,6 +39,7 @@ constexpr Technique table[] = {
         .maps = {},
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 0; },
+        .budget = {.missed = 0.0f, .uv_p99_texels = 14.5f},
         .limits = "nothing shifts, hides or shadows: flat as soon as the view is grazing or moves",
     },
     {
@@ -51,6 +53,7 @@ constexpr Technique table[] = {
         .maps = {Map::height},
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 1; },
+        .budget = {.missed = 0.55f, .uv_p99_texels = 7.4f},
         .limits = "the shift grows without bound at grazing views and tears the texture",
     },
     {
@@ -62,6 +65,7 @@ constexpr Technique table[] = {
         .maps = {Map::height},
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 1; },
+        .budget = {.missed = 0.009f, .uv_p99_texels = 10.0f},
         .limits = "flattens toward the horizon; no part ever hides another",
     },
     {
@@ -76,6 +80,7 @@ constexpr Technique table[] = {
         .maps = {Map::height},
         .knobs = {{knob::max_steps, 64}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps; },
+        .budget = {.missed = 0.004f, .uv_p99_texels = 0.27f},
         .limits = "slices the relief into terraces, and steps over what is thinner than a step",
     },
     {
@@ -83,13 +88,14 @@ constexpr Technique table[] = {
         .title = "Binary search alone",
         .summary = "halves the whole ray toward some crossing of the surface",
         .source = {"Policarpo, Oliveira, Comba", 2005, "Real-Time Relief Mapping on Arbitrary Polygonal Surfaces"},
-        .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .effects = {.motion_parallax = true, .self_shadow = true},
         .solves = {.level = true, .ramp = true},
         .precision = [](const MarchParams& p, float) { return Precision{.error = halved(1, p.refine_steps)}; },
         .maps = {Map::height},
         .knobs = {{knob::refine_steps, 10}},
         .max_fetches = [](const MarchParams& p) { return p.refine_steps; },
-        .limits = "finds a hidden crossing wherever the ray meets the surface more than once",
+        .budget = {.missed = 0.046f, .uv_p99_texels = 4.5f},
+        .limits = "finds a hidden crossing wherever the ray meets the surface more than once: half of what a wall hides is shown, four tenths of its shadow are lit",
     },
     {
         SHADER(relief_mapping),
@@ -105,6 +111,7 @@ constexpr Technique table[] = {
         .maps = {Map::height},
         .knobs = {{knob::max_steps, 30}, {knob::refine_steps, 6}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps + p.refine_steps; },
+        .budget = {.missed = 0.0085f, .uv_p99_texels = 0.0092f},
         .limits = "sharp where it hits, but steps over what is thinner than a step",
     },
     {
@@ -116,6 +123,7 @@ constexpr Technique table[] = {
         .maps = {Map::height, Map::normal},
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 2; },
+        .budget = {.missed = 0.004f, .uv_p99_texels = 10.0f},
         .limits = "steep flanks stay where they are; no part ever hides another",
     },
     {
@@ -130,6 +138,7 @@ constexpr Technique table[] = {
         .maps = {Map::height, Map::normal},
         .knobs = {{knob::iterations, 4}},
         .max_fetches = [](const MarchParams& p) { return 2 * p.iterations; },
+        .budget = {.missed = 0.0125f, .uv_p99_texels = 6.5f},
         .limits = "settles on whichever crossing is near, so steep walls smear",
     },
     {
@@ -147,6 +156,7 @@ constexpr Technique table[] = {
         .maps = {Map::height},
         .knobs = {{knob::max_steps, 64}, {knob::min_steps, 8}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps + 1; },
+        .budget = {.missed = 0.007f, .uv_p99_texels = 0.13f},
         .limits = "cuts corners at steps, and steps over what is thinner than a step",
     },
     {
@@ -161,7 +171,8 @@ constexpr Technique table[] = {
         .maps = {Map::cone},
         .knobs = {{knob::max_steps, 64}, {knob::tolerance, 1e-3f}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps; },
-        .limits = "creeps beside thin spikes and stops short when its steps run out; pierced by edges between texels",
+        .budget = {.missed = 0.014f, .uv_p99_texels = 0.86f},
+        .limits = "creeps beside thin spikes and stops short when its steps run out; cones blended between texels are too wide, so it enters sharp edges and ridges",
     },
     {
         SHADER(max_mip_tracing),

@@ -42,7 +42,8 @@ struct Source {
     std::string_view title;
 };
 
-// The four effects the field compares; what a technique claims is measured by a test.
+// The four effects the field compares. A test measures each: a claim asks for all of motion parallax's direction and half its
+// amount, for nothing seen that a wall hides, for half of a wall's shadow; no claim means less than half is hidden, none dark.
 struct Effects {
     bool motion_parallax = false;
     bool self_occlusion = false;
@@ -73,7 +74,8 @@ struct Precision {
     float stride = 0;  // what the ray is inside of for less than this may be stepped over
 };
 
-// Upper bounds that hold at the default knobs on the contract's random fields, seen 30 degrees above the plane.
+// Upper bounds that hold at the default knobs on the contract's random fields, seen 30 degrees above the plane: about 1.3 times
+// what is measured there, and never above twice.
 struct Budget {
     float missed = 1.0f;         // share of first hits late by more than half a texel
     float uv_p99_texels = 1e9f;  // 99th percentile of the UV error

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/vec.h"
+#include "textures/hash.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +35,7 @@ inline float ellipse_distance(Vec2f p, Vec2f radii) {
 // The shortest way from a to b on the unit torus, each component in [-1/2, 1/2].
 inline Vec2f torus_offset(Vec2f a, Vec2f b) {
     const Vec2f d = b - a;
-    return {d.x - std::floor(d.x + 0.5f), d.y - std::floor(d.y + 0.5f)};
+    return {d.x - static_cast<float>(floor_index(d.x + 0.5f)), d.y - static_cast<float>(floor_index(d.y + 0.5f))};
 }
 
 }  // namespace relievo

@@ -18,6 +18,17 @@ constexpr std::uint32_t scramble(std::uint32_t x) {
     return x;
 }
 
+// The largest integer not above x; std::floor is a call on the oldest x86-64, and noise asks for four of these a texel and octave.
+constexpr int floor_index(float x) {
+    const int i = static_cast<int>(x);
+    return i - (x < static_cast<float>(i) ? 1 : 0);
+}
+
+// wrap_index for indices that are nearly always inside: a division would cost more than the rest of the noise.
+constexpr int lattice_index(int i, int cells) {
+    return static_cast<std::uint32_t>(i) < static_cast<std::uint32_t>(cells) ? i : wrap_index(i, cells);
+}
+
 constexpr std::uint32_t hash(std::uint32_t a, std::uint32_t b) { return scramble(a + 0x9e3779b9u + scramble(b)); }
 
 // A uniform number in [0,1) with 24 bits: exactly representable, so no rounding can reach 1.

@@ -26,7 +26,7 @@ constexpr Entry entries[] = {
      .surface = bricks},
     {.material = {.id = "cobbles", .title = "Cobblestones", .summary = "river stones of many sizes, bedded in sand", .physical_size_m = 0.80f},
      .surface = cobbles},
-    {.material = {.id = "spikes", .title = "Thin spikes", .summary = "rusted iron pins of differing height on tarred felt", .physical_size_m = 0.40f},
+    {.material = {.id = "spikes", .title = "Thin spikes", .summary = "iron nails of differing height through dark old planks", .physical_size_m = 0.40f},
      .surface = spikes},
     {.material = {.id = "engraving", .title = "Engraved stone", .summary = "lettering, meander and rosettes cut into veined limestone", .physical_size_m = 0.50f},
      .surface = engraving},

@@ -8,12 +8,12 @@ namespace {
 // Vertical, grazing, along the axes and on their diagonals; from inside, just outside and far outside the first repeat.
 std::vector<SurfaceRay> difficult_rays(float height_scale) {
     std::vector<SurfaceRay> rays;
-    const float corners[] = {0.0f, 0.5f, 1.0f, -1e-6f, 1.000001f, -0.3f, 1e4f, -1e4f};
+    const float corners[] = {0.0f, 0.5f, -1e-6f, 1.000001f, -0.3f, 1e4f};
     for (const float zero_level : {0.0f, 0.5f, 1.0f}) {
-        for (const double elevation : {90.0, 45.0, 5.0, 0.1, 0.01}) {
-            for (const double azimuth : {0.0, 45.0, 90.0, 180.0, 270.0, 301.0}) {
+        for (const double elevation : {90.0, 45.0, 0.1, 0.01}) {
+            for (const double azimuth : {0.0, 45.0, 90.0, 180.0, 301.0}) {
                 for (const float u : corners) {
-                    for (const float v : {0.25f, -1e-6f, 1e4f}) {
+                    for (const float v : {0.25f, -1e4f}) {
                         rays.push_back(glsl::view_ray({u, v}, view_from(elevation, azimuth), height_scale, zero_level, finest));
                     }
                 }
@@ -37,19 +37,21 @@ std::vector<SurfaceRay> difficult_rays(float height_scale) {
 std::vector<MarchParams> settings(const Technique& technique) {
     std::vector<MarchParams> all{default_params(technique)};
     std::mt19937 random(5);
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 3; ++i) {
         MarchParams params = default_params(technique);
         for (const KnobDefault& d : technique.knobs) {
             const float t = i == 0 ? 0.0f : static_cast<float>(random() >> 8) / 16777216.0f;
-            // Steps grow by powers: a thousand of them for each of some thousand rays would only take time.
-            d.knob->set(params, d.knob->min + (std::min(d.knob->max, 300.0f) - d.knob->min) * t * t);
+            // The lowest setting, then random ones; a thousand steps for each of some thousand rays would only take time.
+            d.knob->set(params, d.knob->min + (std::min(d.knob->max, 128.0f) - d.knob->min) * t * t);
         }
         all.push_back(params);
     }
     return all;
 }
 
-TEST_P(EveryTechnique, ends_and_stays_finite_within_its_fetches) {
+class Limits : public EveryTechnique {};
+
+TEST_P(Limits, ends_and_stays_finite_within_its_fetches) {
     std::vector<HeightField> fields{rough_field(3), HeightField(1, 1, 0.5f), HeightField(7, 2, 0.0f), HeightField(4, 4, 1.0f)};
     HeightField spikes(16, 16);
     spikes.texels(3, 5) = 1;
@@ -80,7 +82,7 @@ TEST_P(EveryTechnique, ends_and_stays_finite_within_its_fetches) {
 }
 
 // At the same knobs some ray needs close to all that is allowed: the bound is not padded.
-TEST_P(EveryTechnique, comes_near_its_fetches) {
+TEST_P(Limits, comes_near_its_fetches) {
     MarchParams params = defaults();
     for (const KnobDefault& d : technique().knobs) d.knob->set(params, std::min(d.value, 8.0f));
     const MapSet maps = baked_maps(HeightField(rough_field(3)), 0.3f);
@@ -90,7 +92,7 @@ TEST_P(EveryTechnique, comes_near_its_fetches) {
     EXPECT_GE(most, technique().max_fetches(params) - 1);
 }
 
-FOR_EVERY_TECHNIQUE();
+FOR_EVERY_TECHNIQUE(Limits);
 
 }  // namespace
 }  // namespace relievo::contract

@@ -38,11 +38,14 @@ inline HeightField random_field(int width, int height, int highest, double slope
 // Rolling ground: no wave shorter than a third of the repeat.
 inline HeightField smooth_field(unsigned seed) { return random_field(80, 56, 3, 1.5, seed); }
 
-// Rubble down to the texel: waves to a twelfth of the repeat and an independent twentieth of noise on every texel.
+// Rubble down to the texel: waves to an eighteenth of the repeat, noise on every texel, and one spike of a single texel in 90.
 inline HeightField rough_field(unsigned seed) {
-    HeightField field = random_field(80, 56, 12, 1.2, seed);
+    HeightField field = random_field(80, 56, 18, 0.9, seed);
     std::mt19937 random(seed + 1);
-    for (float& h : field.texels.texels) h += 0.05f * static_cast<float>(random() >> 8) / 16777216.0f;
+    for (float& h : field.texels.texels) {
+        h = 0.8f * h + 0.1f * static_cast<float>(random() >> 8) / 16777216.0f;
+        if (random() % 90 == 0) h += 0.4f;
+    }
     stretch_to_unit(field);
     return field;
 }

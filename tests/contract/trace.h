@@ -49,8 +49,8 @@ inline std::vector<const Technique*> catalogue_rows() {
 
 inline std::string row_name(const testing::TestParamInfo<const Technique*>& info) { return std::string(info.param->id); }
 
-#define FOR_EVERY_TECHNIQUE() \
-    INSTANTIATE_TEST_SUITE_P(catalogue, EveryTechnique, testing::ValuesIn(catalogue_rows()), row_name)
+// Runs the tests of a fixture derived from EveryTechnique for every row.
+#define FOR_EVERY_TECHNIQUE(Fixture) INSTANTIATE_TEST_SUITE_P(catalogue, Fixture, testing::ValuesIn(catalogue_rows()), row_name)
 
 inline glsl::BoundMaps declared_maps(const Technique& technique, const MapSet& maps) {
     const glsl::BoundMaps all = glsl::bind_maps(maps);

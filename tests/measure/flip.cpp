@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <numeric>
+#include <ostream>
 
 namespace relievo {
 namespace {
@@ -25,7 +26,7 @@ TEST(Flip, IdenticalPicturesAreExactlyZero) {
     for (float e : r.error.texels) EXPECT_EQ(e, 0);
 }
 
-// Uniform pictures have no features, so the error is that of the two colours alone, by equations 5 to 8 on paper:
+// Uniform pictures have no features, so the error is that of the two colours alone, worked out on paper:
 // black to white is 100 apart in L*; green and blue are the farthest pair by definition.
 TEST(Flip, KnownExtremes) {
     EXPECT_NEAR(flip(uniform(40, 30, {0, 1, 0}), uniform(40, 30, {0, 0, 1})).mean, 1, 1e-5);
@@ -68,6 +69,8 @@ struct Pair {
     ImageF a, b;
     double pixels_per_degree = 67;
 };
+
+void PrintTo(const Pair& pair, std::ostream* out) { *out << pair.name; }
 
 class FlipAgainstDirect : public testing::TestWithParam<Pair> {};
 
@@ -113,7 +116,7 @@ std::vector<Pair> pairs() {
     };
 }
 
-INSTANTIATE_TEST_SUITE_P(Pictures, FlipAgainstDirect, testing::ValuesIn(pairs()), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Pictures, FlipAgainstDirect, testing::ValuesIn(pairs()), [](const auto& test) { return test.param.name; });
 
 TEST(Flip, PixelThatIsNotANumberIsNamed) {
     const ImageF good = random_picture(30, 90, 1);

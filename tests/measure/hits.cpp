@@ -4,6 +4,7 @@
 #include "measure/along_ray.h"
 #include "frames.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>

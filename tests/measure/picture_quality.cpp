@@ -8,6 +8,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <utility>
 
 namespace relievo {
 namespace {
@@ -57,7 +58,7 @@ TEST(Psnr, DoesNotDependOnThreads) {
     EXPECT_EQ(*psnr_db(a, b, 1), *psnr_db(a, b, 3));
 }
 
-// Straight from section III-B of the paper: one 11 x 11 window per pixel, deviations from the means summed in double.
+// Straight from section III of the paper: one 11 x 11 window per pixel, deviations from the means summed in double.
 double direct_ssim(const ImageF& a, const ImageF& b) {
     const auto luma = [](const ImageF& image, int x, int y) {
         const auto mirror = [](int i, int n) {
@@ -121,7 +122,7 @@ TEST(Ssim, AgreesWithDirectSums) {
         });
     };
     EXPECT_NEAR(ssim(rings(0), rings(0.3f)), direct_ssim(rings(0), rings(0.3f)), 1e-9);
-    for (const auto [w, h] : {std::pair{47, 33}, std::pair{3, 9}, std::pair{1, 1}, std::pair{60, 2}, std::pair{12, 120}}) {
+    for (const auto& [w, h] : {std::pair{47, 33}, std::pair{3, 9}, std::pair{1, 1}, std::pair{60, 2}, std::pair{12, 120}}) {
         const ImageF a = random_picture(w, h, 5), b = random_picture(w, h, 6);
         EXPECT_NEAR(ssim(a, b, 2), direct_ssim(a, b), 1e-9) << w << "x" << h;
     }
