@@ -64,6 +64,7 @@ function digits(value, count = 3) {
 // A number as it stands under a header that names its unit.
 function shown(value, column) {
     if (value === null || value === undefined) return "–";
+    if (value === Infinity) return "∞";
     return digits(column.unit === "share" ? value * 100 : value);
 }
 const unit_of = (column) => (column.unit === "share" ? "%" : column.unit);
