@@ -5,6 +5,7 @@
 #include "report/technique_text.h"
 
 #include "core/error.h"
+#include "report/css_colour.h"
 #include "techniques/catalogue.h"
 #include "techniques/knobs.h"
 
@@ -129,8 +130,10 @@ struct PageData {
         json["settings"] = settings.list;
         const auto legend = [](const Legend& l) {
             Json stops = Json::array();
-            for (const LegendStop& s : l.stops) stops.push_back({s.label, s.colour});
-            return Json{{"title", l.title}, {"unit", l.unit}, {"stops", stops}};
+            for (const LegendStop& s : l.stops) stops.push_back({rounded(s.position), css_colour(s.colour), s.label});
+            Json keys = Json::array();
+            for (const LegendKey& k : l.keys) keys.push_back({css_colour(k.colour), k.label});
+            return Json{{"title", l.title}, {"unit", l.unit}, {"low", l.low_end}, {"high", l.high_end}, {"stops", stops}, {"keys", keys}};
         };
         json["legends"] = {{"error", legend(results.error_legend)}, {"fetches", legend(results.fetches_legend)}};
         return json;

@@ -2,6 +2,7 @@
 // plots. results.json holds exactly this; results.csv its rows; the page is made from it and from the catalogue.
 #pragma once
 
+#include "core/legend.h"
 #include "core/map_set.h"
 #include "core/measurement.h"
 
@@ -62,18 +63,6 @@ struct Manifest {
     double seconds = 0;  // the whole comparison
     std::string docs;    // where the chapters are (folder or address); empty: the page links to none
     std::vector<MaterialNote> materials;
-};
-
-struct LegendStop {
-    std::string label;   // "4"
-    std::string colour;  // CSS, "#rrggbb"
-};
-
-// How a picture's colours are to be read, smallest value first; the page blends linearly from stop to stop.
-struct Legend {
-    std::string title;
-    std::string unit;
-    std::vector<LegendStop> stops;
 };
 
 // The maps' names, which belong to a table this folder does not see.

@@ -2,6 +2,7 @@
 #include "report/results.h"
 
 #include "core/error.h"
+#include "report/css_colour.h"
 
 #include <nlohmann/json.hpp>
 
@@ -89,8 +90,11 @@ Json manifest_json(const Manifest& m) {
 }
 
 Json legend_json(const Legend& legend) {
-    Json json{{"title", legend.title}, {"unit", legend.unit}, {"stops", Json::array()}};
-    for (const LegendStop& s : legend.stops) json["stops"].push_back({{"label", s.label}, {"colour", s.colour}});
+    Json json{{"title", legend.title}, {"unit", legend.unit}, {"low_end", legend.low_end}, {"high_end", legend.high_end},
+              {"stops", Json::array()}, {"keys", Json::array()}};
+    for (const LegendStop& s : legend.stops)
+        json["stops"].push_back({{"position", s.position}, {"value", s.value}, {"colour", css_colour(s.colour)}, {"label", s.label}});
+    for (const LegendKey& k : legend.keys) json["keys"].push_back({{"colour", css_colour(k.colour)}, {"label", k.label}});
     return json;
 }
 
@@ -215,10 +219,20 @@ Manifest read_manifest(const Node& node) {
     return m;
 }
 
+Rgb8 read_colour(const Node& node) {
+    const std::string text = node.text();
+    unsigned r = 0, g = 0, b = 0;
+    if (text.size() != 7 || std::sscanf(text.c_str(), "#%2x%2x%2x", &r, &g, &b) != 3) node.fail("is not a colour like #rrggbb");
+    return {static_cast<std::uint8_t>(r), static_cast<std::uint8_t>(g), static_cast<std::uint8_t>(b)};
+}
+
 Legend read_legend(const Node& node) {
-    return {node.at("title").text(), node.at("unit").text(), list_of(node.at("stops"), [](const Node& s) {
-                return LegendStop{s.at("label").text(), s.at("colour").text()};
-            })};
+    Legend legend{node.at("title").text(), node.at("unit").text(), node.at("low_end").text(), node.at("high_end").text(), {}, {}};
+    legend.stops = list_of(node.at("stops"), [](const Node& s) {
+        return LegendStop{s.at("position").number(), s.at("value").number(), read_colour(s.at("colour")), s.at("label").text()};
+    });
+    legend.keys = list_of(node.at("keys"), [](const Node& k) { return LegendKey{read_colour(k.at("colour")), k.at("label").text()}; });
+    return legend;
 }
 
 }  // namespace

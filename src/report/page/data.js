@@ -141,13 +141,17 @@ function fill_legend(holder, mode) {
         holder.replaceChildren(el("span", { class: "note" }, mode === "picture" ? "same light, same exposure everywhere" : ""));
         return;
     }
-    const last = Math.max(1, legend.stops.length - 1);
-    const place = (i) => `left:${(100 * i) / last}%`;
+    // A stop is [position, colour, label]; a key is [colour, label].
+    const labelled = legend.stops.filter(([, , label]) => label);
+    const bar = legend.stops.map(([position, colour]) => `${colour} ${100 * position}%`).join(",");
     holder.replaceChildren(
         el("span", { class: "legend-title" }, legend.title + (legend.unit ? ", " + legend.unit : "")),
-        el("div", { class: "legend-scale", role: "img", "aria-label": `Scale: ${legend.stops.map(([label]) => label).join(", ")} ${legend.unit}` },
-            el("div", { class: "legend-bar", style: `background:linear-gradient(90deg,${legend.stops.map(([, colour]) => colour).join(",")})` }),
-            el("div", { class: "legend-labels", "aria-hidden": "true" }, ...legend.stops.map(([label], i) => el("span", { style: place(i) }, label)))));
+        el("span", { class: "legend-end" }, legend.low),
+        el("div", { class: "legend-scale", role: "img", "aria-label": `Scale from ${legend.low} to ${legend.high}: ${labelled.map(([, , label]) => label).join(", ")} ${legend.unit}` },
+            el("div", { class: "legend-bar", style: `background:linear-gradient(90deg,${bar})` }),
+            el("div", { class: "legend-labels", "aria-hidden": "true" }, ...labelled.map(([position, , label]) => el("span", { style: `left:${100 * position}%` }, label)))),
+        el("span", { class: "legend-end" }, legend.high),
+        ...legend.keys.map(([colour, label]) => el("span", { class: "legend-key" }, el("i", { style: `background:${colour}` }), label)));
 }
 
 // A small text that follows the pointer or sits by a focused mark.
