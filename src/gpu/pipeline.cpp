@@ -17,7 +17,7 @@ vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout
     const auto fragment = module_of(device, settings.fragment);
     std::vector<vk::SpecializationMapEntry> entries;
     for (std::uint32_t i = 0; i < settings.fragment_constants.size(); ++i)
-        entries.push_back({.constantID = i, .offset = i * static_cast<std::uint32_t>(sizeof(vk::Bool32)), .size = sizeof(vk::Bool32)});
+        entries.push_back({.constantID = i, .offset = i * static_cast<std::uint32_t>(sizeof(std::uint32_t)), .size = sizeof(std::uint32_t)});
     const vk::SpecializationInfo constants{.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
                                            .pMapEntries = entries.data(),
                                            .dataSize = settings.fragment_constants.size_bytes(),

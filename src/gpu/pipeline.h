@@ -11,7 +11,7 @@ namespace relievo::gpu {
 struct DrawPipeline {
     std::span<const std::uint32_t> vertex;
     std::span<const std::uint32_t> fragment;
-    std::span<const vk::Bool32> fragment_constants;  // values of specialization constants 0, 1, 2 ...
+    std::span<const std::uint32_t> fragment_constants;  // specialization constants 0, 1, 2 ...: int, uint or bool
     std::span<const vk::Format> targets;
 };
 

@@ -24,10 +24,11 @@ vk::Pipeline HeightFieldPass::pipeline(const Draw& draw) {
     const std::string_view id = draw.technique ? draw.technique->id : std::string_view{};
     const bool casts_shadow = draw.shadow && draw.technique && draw.technique->effects.self_shadow;
     const bool shaded_normals = draw.technique && draw.technique->shaded_normals;
-    const Key key{draw.host.file, std::string(id), casts_shadow, draw.host.targets};
+    // The specialization constants of surface.glsl; a host that runs no technique has none and ignores them.
+    const std::array<std::uint32_t, 3> constants{casts_shadow, shaded_normals, draw.technique ? draw.scene.light_count() : 0};
+    const Key key{draw.host.file, std::string(id), constants, draw.host.targets};
     auto it = pipelines_.find(key);
     if (it == pipelines_.end()) {
-        const vk::Bool32 constants[] = {casts_shadow, shaded_normals};
         it = pipelines_
                  .emplace(key, gpu::make_pipeline(device_, *layout_.draw_pipeline,
                                                   gpu::DrawPipeline{.vertex = words_of("quad.vert", {}),
@@ -40,7 +41,7 @@ vk::Pipeline HeightFieldPass::pipeline(const Draw& draw) {
 }
 
 vk::Pipeline HeightFieldPass::cast_pipeline(const Technique& technique) {
-    const Key key{"cast.comp", std::string(technique.id), false, {}};
+    const Key key{"cast.comp", std::string(technique.id), {}, {}};
     auto it = pipelines_.find(key);
     if (it == pipelines_.end())
         it = pipelines_.emplace(key, gpu::make_pipeline(device_, *layout_.cast_pipeline, words_of("cast.comp", technique.id))).first;

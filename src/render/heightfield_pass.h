@@ -6,6 +6,7 @@
 #include "render/scene_binding.h"
 #include "techniques/technique.h"
 
+#include <array>
 #include <map>
 #include <string>
 #include <tuple>
@@ -50,7 +51,7 @@ public:
     vk::Pipeline cast_pipeline(const Technique& technique);
 
 private:
-    using Key = std::tuple<std::string, std::string, bool, std::vector<vk::Format>>;
+    using Key = std::tuple<std::string, std::string, std::array<std::uint32_t, 3>, std::vector<vk::Format>>;
     const gpu::Device& device_;
     FamilyLayout layout_;
     std::map<Key, vk::raii::Pipeline> pipelines_;

@@ -1,5 +1,6 @@
 #include "render/scene_binding.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -27,12 +28,11 @@ glsl::SceneUniforms scene_uniforms(const Stage& stage, int width, int height, Ve
         .shift_y = -2 * offset.y / static_cast<float>(height),
         .near_z = 1e-3f,  // a thousandth of a repeat: nearer than any useful view, far enough for float
         .periods = stage.base.periods,
-        .light_count = static_cast<int>(light.lights.size()),
         .ambient_r = light.ambient.x, .ambient_g = light.ambient.y, .ambient_b = light.ambient.z,
         .specular = light.specular,
         .shininess = light.shininess,
         .background_r = light.background.x, .background_g = light.background.y, .background_b = light.background.z,
-        .padding = 0,
+        .padding_a = 0, .padding_b = 0,
     };
 }
 
@@ -40,32 +40,53 @@ glsl::LightUniforms light_uniforms(const Light& light) {
     return {.x = light.position.x, .y = light.position.y, .z = light.position.z,
             .directional = light.directional ? 1 : 0,
             .r = light.colour.x, .g = light.colour.y, .b = light.colour.z,
-            .constant = light.constant, .linear = light.linear, .quadratic = light.quadratic};
+            .constant = light.constant, .linear = light.linear, .quadratic = light.quadratic,
+            .padding_a = 0, .padding_b = 0};
 }
+
+// shaders/hosts/heightfield/scene.glsl's uniform block.
+struct SceneBlock {
+    glsl::SceneUniforms scene;
+    glsl::LightUniforms first_lights[glsl::first_lights_count];
+};
+static_assert(offsetof(SceneBlock, first_lights) == sizeof(glsl::SceneUniforms));
 
 }  // namespace
 
 SceneBinding::SceneBinding(const gpu::Device& device, const FamilyLayout& layout)
-    : device_(&device), scene_(gpu::make_buffer(device, sizeof(glsl::SceneUniforms), vk::BufferUsageFlagBits::eUniformBuffer)),
+    : device_(&device), scene_(gpu::make_buffer(device, sizeof(SceneBlock), vk::BufferUsageFlagBits::eUniformBuffer)),
       set_(make_descriptor_set(device, layout.scene, {{vk::DescriptorType::eUniformBuffer, 1}, {vk::DescriptorType::eStorageBuffer, 1}})) {
     const vk::DescriptorBufferInfo scene{.buffer = *scene_.handle, .range = VK_WHOLE_SIZE};
-    device.handle().updateDescriptorSets(
-        vk::WriteDescriptorSet{.dstSet = set_.handle, .dstBinding = 0, .descriptorCount = 1, .descriptorType = vk::DescriptorType::eUniformBuffer, .pBufferInfo = &scene}, {});
+    device.handle().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set_.handle,
+                                                                .dstBinding = 0,
+                                                                .descriptorCount = 1,
+                                                                .descriptorType = vk::DescriptorType::eUniformBuffer,
+                                                                .pBufferInfo = &scene},
+                                         {});
 }
 
 void SceneBinding::update(const Stage& stage, int width, int height, Vec2f offset) {
-    const auto uniforms = scene_uniforms(stage, width, height, offset);
-    std::memcpy(scene_.mapped, &uniforms, sizeof uniforms);
+    const auto& lights = stage.lighting.lights;
+    light_count_ = static_cast<std::uint32_t>(lights.size());
+    constexpr std::size_t first = glsl::first_lights_count;
+    SceneBlock block{scene_uniforms(stage, width, height, offset), {}};
+    for (std::size_t i = 0; i < std::min(first, lights.size()); ++i) block.first_lights[i] = light_uniforms(lights[i]);
+    std::memcpy(scene_.mapped, &block, sizeof block);
 
-    // A storage buffer has at least one element, so that a stage without lights binds something.
-    const std::size_t count = std::max<std::size_t>(1, stage.lighting.lights.size());
-    if (lights_.size < count * sizeof(glsl::LightUniforms)) {
-        lights_ = gpu::make_buffer(*device_, count * sizeof(glsl::LightUniforms), vk::BufferUsageFlagBits::eStorageBuffer);
-        const vk::DescriptorBufferInfo lights{.buffer = *lights_.handle, .range = VK_WHOLE_SIZE};
-        device_->handle().updateDescriptorSets(
-            vk::WriteDescriptorSet{.dstSet = set_.handle, .dstBinding = 1, .descriptorCount = 1, .descriptorType = vk::DescriptorType::eStorageBuffer, .pBufferInfo = &lights}, {});
+    // A storage buffer has at least one element, so that a stage without further lights binds something.
+    const std::size_t further = lights.size() > first ? lights.size() - first : 0;
+    const std::size_t needed = std::max<std::size_t>(1, further) * sizeof(glsl::LightUniforms);
+    if (further_lights_.size < needed) {
+        further_lights_ = gpu::make_buffer(*device_, needed, vk::BufferUsageFlagBits::eStorageBuffer);
+        const vk::DescriptorBufferInfo buffer{.buffer = *further_lights_.handle, .range = VK_WHOLE_SIZE};
+        device_->handle().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set_.handle,
+                                                                      .dstBinding = 1,
+                                                                      .descriptorCount = 1,
+                                                                      .descriptorType = vk::DescriptorType::eStorageBuffer,
+                                                                      .pBufferInfo = &buffer},
+                                               {});
     }
-    for (std::size_t i = 0; i < stage.lighting.lights.size(); ++i) lights_.as<glsl::LightUniforms>()[i] = light_uniforms(stage.lighting.lights[i]);
+    for (std::size_t i = 0; i < further; ++i) further_lights_.as<glsl::LightUniforms>()[i] = light_uniforms(lights[first + i]);
 }
 
 }  // namespace relievo

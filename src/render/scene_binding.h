@@ -16,12 +16,14 @@ public:
     void update(const Stage& stage, int width, int height, Vec2f offset);
 
     vk::DescriptorSet set() const { return set_.handle; }
+    std::uint32_t light_count() const { return light_count_; }
 
 private:
     const gpu::Device* device_;
     gpu::Buffer scene_;
-    gpu::Buffer lights_;  // grows with the number of lights
+    gpu::Buffer further_lights_;  // grows with the number of lights
     DescriptorSet set_;
+    std::uint32_t light_count_ = 0;
 };
 
 }  // namespace relievo

@@ -93,11 +93,13 @@ std::vector<std::string> answer(const Results& results) {
     const Row& worst = *hard.others.back();
     if (hard.exact) {
         const std::string cost = cost_against(*hard.exact, best);
+        const bool tied = *wrong_share(best) == *wrong_share(*hard.exact);
         std::string text = "On " + seen(best) + ", " + inside_sentence(named(*hard.exact, false)) + " shows " + wrong_pixels(*wrong_share(*hard.exact));
         if (!cost.empty()) text += "," + cost + inside_sentence(named(best, true));
-        text += cost.empty() ? ". " : ", ";
-        text += cost.empty() ? named(best, true) + " puts " : "which puts ";
-        sentences.push_back(text + percent(*wrong_share(best)) + " of the pixels in the wrong place.");
+        else text += "; " + inside_sentence(named(best, true));
+        if (tied) text += cost.empty() ? " does as well" : ", which does as well";
+        else text += (cost.empty() ? " puts " : ", which puts ") + percent(*wrong_share(best)) + " of the pixels in the wrong place";
+        sentences.push_back(text + ".");
     } else {
         sentences.push_back("On " + seen(best) + ", the hardest case here, " + inside_sentence(named(best, true)) + " comes closest, with " +
                             wrong_pixels(*wrong_share(best)) + ".");

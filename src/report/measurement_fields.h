@@ -42,7 +42,12 @@ struct Column {
     std::string_view help;
 };
 
+// The first is no member: late and early hits together, since each alone calls a flat polygon (never late) or a coarse search
+// (never early) perfect.
+inline constexpr std::string_view wrong_id = "wrong";
+
 inline constexpr Column columns[] = {
+    {wrong_id, "Wrong", "share", true, "pixels whose hit is off by more than half a texel along the ray, either way, or not found"},
     {"missed_first_hit", "Missed", "share", true, "pixels whose first hit is missed: late by more than half a texel, or not found"},
     {"early_hit", "Early", "share", true, "pixels that stop more than half a texel before the surface"},
     {"uv_error_texels.p50", "UV error p50", "texels", true, "median distance between the found and the true texture coordinate"},

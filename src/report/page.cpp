@@ -58,7 +58,7 @@ Json technique_json(const Technique& t, const Results& results) {
 
 struct PageData {
     const Results& results;
-    Words techniques, materials, views, reasons;
+    Words techniques, materials, views, reasons, settings;
 
     explicit PageData(const Results& r) : results(r) {
         // The catalogue's order is that of the years; only what was run is shown, and what the catalogue does not know comes last.
@@ -73,8 +73,9 @@ struct PageData {
                   {"e", rounded(r.elevation_deg)}};
         json["k"] = Json::object();
         for (const auto& [id, value] : r.knobs) json["k"][id] = rounded(value);
-        json["s"] = setting_text(r.knobs);
+        json["s"] = settings.index(setting_text(r.knobs));
         Json numbers = Json::array();
+        numbers.push_back(r.m.missed_first_hit && r.m.early_hit ? rounded(*r.m.missed_first_hit + *r.m.early_hit) : Json(nullptr));
         Json missing = Json::object();
         each_field(r.m, [&](const std::string& name, const auto& measured) {
             std::decay_t<decltype(*measured)> value{};
@@ -126,6 +127,7 @@ struct PageData {
         }
         json["views"] = views.list;
         json["reasons"] = reasons.list;
+        json["settings"] = settings.list;
         const auto legend = [](const Legend& l) {
             Json stops = Json::array();
             for (const LegendStop& s : l.stops) stops.push_back({rounded(s.position), css_colour(s.colour), s.label});
@@ -176,6 +178,14 @@ std::string conditions(const Manifest& m) {
     return list;
 }
 
+// The conditions in one line, under the answer.
+std::string ran(const Manifest& m) {
+    std::string text;
+    for (const std::string& part : {m.device, m.driver, std::to_string(m.width) + " × " + std::to_string(m.height) + " pixels", m.date.substr(0, 10)})
+        if (!part.empty()) text += (text.empty() ? "" : " · ") + html_text(part);
+    return text;
+}
+
 }  // namespace
 
 std::string page_html(const Results& results) {
@@ -185,7 +195,7 @@ std::string page_html(const Results& results) {
     for (const auto& [name, text] : page_parts())
         if (name.ends_with(".js")) script += text + "\n";
     std::string sentences;
-    for (const std::string& sentence : answer(results)) sentences += "<p>" + html_text(sentence) + "</p>\n";
+    for (const std::string& sentence : answer(results)) sentences += html_text(sentence) + "\n";
 
     const std::string& frame = page_parts().at("index.html");
     const auto part = [&](const std::string& name) -> std::string {
@@ -194,6 +204,7 @@ std::string page_html(const Results& results) {
         if (name == "data") return script_text(PageData(results).all().dump(-1, ' ', false, Json::error_handler_t::replace));
         if (name == "answer") return sentences;
         if (name == "conditions") return conditions(results.manifest);
+        if (name == "ran") return ran(results.manifest);
         if (name == "command") return html_text(results.manifest.command);
         throw Error("write the report", "index.html", "its frame asks for an unknown part \"" + name + "\"");
     };

@@ -35,7 +35,7 @@ std::string short_number(double value) {
     return text;
 }
 
-std::string percent(double share) { return short_number(100 * share) + " %"; }
+std::string percent(double share) { return short_number(100 * share) + "\u202f%"; }
 
 std::string setting_text(const KnobValues& values) {
     std::string text;
@@ -44,7 +44,11 @@ std::string setting_text(const KnobValues& values) {
         char number[32];
         std::snprintf(number, sizeof number, "%.6g", value);
         text += (text.empty() ? "" : ", ") + std::string(number) + " ";
-        text += knob ? inside_sentence(std::string(knob->title)) : readable_name(id);
+        std::string noun = knob ? inside_sentence(std::string(knob->title)) : readable_name(id);
+        // Titles of counts are plurals: "Steps seen from above" becomes "1 step seen from above".
+        const std::size_t word_end = std::min(noun.find(' '), noun.size());
+        if (value == 1 && word_end > 1 && noun[word_end - 1] == 's') noun.erase(word_end - 1, 1);
+        text += noun;
     }
     return text;
 }

@@ -23,7 +23,7 @@ std::string readable_name(std::string name);
 // Two significant digits, with "0.0004", never "4e-04".
 std::string short_number(double value);
 
-// A share in [0,1] as "4.1 %".
+// A share in [0,1] as "4.1 %", with a space at which no line breaks.
 std::string percent(double share);
 
 }  // namespace relievo

@@ -124,9 +124,11 @@ MapSet maps_of(const Relief& relief) {
         for (int j = begin; j < end; ++j) {
             for (int i = 0; i < texels; ++i) {
                 const float h = maps.height.wrapped(i, j);
-                float ratio = 1;
-                for (int y = -texels / 2; y < texels / 2; ++y) {
-                    for (int x = -texels / 2; x < texels / 2; ++x) {
+                // Looks only so far, and so never claims a cone that is wider.
+                constexpr int radius = texels / 6;
+                float ratio = static_cast<float>(radius) / texels;
+                for (int y = -radius; y <= radius; ++y) {
+                    for (int x = -radius; x <= radius; ++x) {
                         const float rise = maps.height.wrapped(i + x, j + y) - h;
                         if (rise > 0) ratio = std::min(ratio, std::hypot(static_cast<float>(x), static_cast<float>(y)) / texels / rise);
                     }

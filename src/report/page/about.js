@@ -1,6 +1,5 @@
 // What the catalogue says of each technique that was run, and under which conditions each material was read.
 function draw_about() {
-    const chapter = (technique) => (page.docs ? el("a", { href: page.docs.replace(/\/?$/, "/") + technique.id + ".md" }, "Chapter") : "");
     $("about").replaceChildren(...page.techniques.map((technique) => {
         const heading = el("h3", { id: "technique-" + technique.id }, technique.year ? el("span", { class: "year" }, technique.year) : "", technique.title, technique.exact ? el("span", { class: "exact" }, "exact") : "");
         if (!technique.known) return el("article", {}, heading, el("p", {}, "Not in this version's catalogue; its rows were written by another."));
@@ -13,7 +12,8 @@ function draw_about() {
         const shows = Object.entries(technique.effects).filter(([, claimed]) => claimed).map(([effect]) => effect);
         fact("Shows", shows.join(", ") || "shading only");
         fact("Fails", technique.limits);
-        return el("article", {}, heading, el("p", { class: "idea" }, sentence(technique.summary)), facts, chapter(technique));
+        if (page.docs) fact("More", el("a", { href: page.docs.replace(/\/?$/, "/") + technique.id + ".md" }, "its chapter"));
+        return el("article", {}, heading, el("p", { class: "idea" }, sentence(technique.summary)), facts);
     }));
 }
 const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1) + (text.endsWith(".") ? "" : ".");

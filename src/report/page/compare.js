@@ -168,7 +168,7 @@ function make_compare(state, change) {
     function inspect() {
         const subjects = shown_rows.filter(Boolean);
         if (!pixel) {
-            $("inspector").replaceChildren(el("p", { class: "note" }, "Move over the pictures to read the values of a pixel."));
+            $("inspector").replaceChildren(el("p", { class: "note" }, "Point at the pictures to read the values of a pixel."));
             return;
         }
         const values = subjects.map((row) => pixel_values(row, pixel.x, pixel.y, inspect));

@@ -5,10 +5,13 @@ const column_of = (id) => page.columns[column_index.get(id)];
 
 const value_of = (row, id) => row.n[column_index.get(id)];
 const reason_of = (row, id) => {
+    if (id === "wrong") id = value_of(row, "missed_first_hit") === null ? "missed_first_hit" : "early_hit";
     const field = id.split(".")[0];
     return row.r && field in row.r ? page.reasons[row.r[field]] : "not measured";
 };
 const no_picture_reason = (row) => (row && row.x !== undefined ? page.reasons[row.x] : "this picture was not made");
+
+for (const row of [...page.rows, ...page.sweep]) row.s = page.settings[row.s];
 
 const rows_by_place = new Map();  // "material/view" -> rows in the order of the techniques
 for (const row of page.rows) {
@@ -69,11 +72,15 @@ function with_unit(value, column) {
     return shown(value, column) + (unit && value !== null ? (unit === "°" ? unit : "\u202f" + unit) : "");
 }
 
-function wrong_share(row) {
-    const missed = value_of(row, "missed_first_hit");
-    const early = value_of(row, "early_hit");
-    return missed === null || early === null ? null : missed + early;
+const wrong_share = (row) => value_of(row, "wrong");
+
+// A round number as a limit: no digits that say nothing.
+function limit(value, column) {
+    const unit = unit_of(column);
+    return "≤ " + +(column.unit === "share" ? value * 100 : value).toPrecision(2) + (unit ? "\u202f" + unit : "");
 }
+
+const of_hundred = (share) => (share === 0 ? "none" : digits(share * 100, 2) + "\u202f%");
 
 // What a picture shows to someone who cannot see it: what is wrong, how far, and where.
 function picture_words(row, mode) {
@@ -86,7 +93,7 @@ function picture_words(row, mode) {
     const missed = value_of(row, "missed_first_hit"), early = value_of(row, "early_hit"), far = value_of(row, "uv_error_texels.p99");
     const parts = [];
     if (missed !== null && early !== null) {
-        parts.push(missed + early === 0 ? "no pixel is wrong" : `${digits(missed * 100, 2)} % of the first hits are missed, ${digits(early * 100, 2)} % are early`);
+        parts.push(missed + early === 0 ? "no pixel is wrong" : `${of_hundred(missed)} of the first hits are missed, ${of_hundred(early)} are early`);
     }
     if (far !== null) parts.push(`99 of 100 pixels are within ${digits(far, 2)} texels`);
     return `${mode === "wrong" ? "Where it is wrong: " : ""}${subject}: ${parts.join("; ") || "not measured"}.${row.w ? " " + row.w : ""}`;

@@ -11,24 +11,25 @@ function draw_equal(state) {
         + (page.sweep.length ? "Each technique is given its best setting among those that were run." : "Only the default settings were run, so each technique has one chance.");
 
     const targets = [...round_steps(errors, 4).reverse(), 0];
-    equal_table($("equal-error"), techniques, targets.map((v) => "≤ " + with_unit(v, error)), (t, i) =>
+    equal_table($("equal-error"), techniques, targets.map((v) => (v ? limit(v, error) : "0")), (t, i) =>
         best(settings.filter((row) => row.t === t && value_of(row, error.id) !== null && value_of(row, error.id) <= targets[i]), cost), cost, "not reached");
     const budgets = round_steps(costs, 5);
-    equal_table($("equal-time"), techniques, budgets.map((v) => "≤ " + with_unit(v, cost)), (t, i) =>
+    equal_table($("equal-time"), techniques, budgets.map((v) => limit(v, cost)), (t, i) =>
         best(settings.filter((row) => row.t === t && value_of(row, cost.id) !== null && value_of(row, cost.id) <= budgets[i]), error), error, "too slow");
 }
 
 const best = (rows, column) => rows.filter((row) => value_of(row, column.id) !== null).reduce((a, b) => (a && value_of(a, column.id) <= value_of(b, column.id) ? a : b), null);
 
-// Round numbers (1, 2, 5) spread over the range of the values, smallest first.
+// Round numbers spread evenly, as ratios, over the range of the values; smallest first.
 function round_steps(values, count) {
     if (!values.length) return [];
-    const low = Math.log10(Math.min(...values)), high = Math.log10(Math.max(...values));
+    const low = Math.min(...values), high = Math.max(...values);
     const steps = new Set();
     for (let i = 0; i < count; ++i) {
-        const v = 10 ** (low + (high - low) * (i + 1) / (count + 1));
+        const v = low * (high / low) ** ((i + 1) / (count + 1));
         const decade = 10 ** Math.floor(Math.log10(v));
-        steps.add(+((v / decade < 1.5 ? 1 : v / decade < 3.5 ? 2 : v / decade < 7.5 ? 5 : 10) * decade).toPrecision(1));
+        const round = [1, 1.5, 2, 3, 5, 7, 10].reduce((a, b) => (Math.abs(Math.log(v / decade / b)) < Math.abs(Math.log(v / decade / a)) ? b : a));
+        if (round * decade >= low) steps.add(+(round * decade).toPrecision(2));
     }
     return [...steps].sort((a, b) => a - b);
 }

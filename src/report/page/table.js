@@ -1,4 +1,5 @@
-// All rows: sortable by any column, filtered by material, view and words, copied as CSV. Rows are built once and then only moved.
+// All rows: sortable by any column, filtered by material, view and words, copied as CSV. Rows are built once and then only moved;
+// a long table is laid out as far as it is scrolled.
 function make_table(state, open) {
     const columns = page.columns;
     let sort = { key: "technique", down: false };
@@ -24,7 +25,8 @@ function make_table(state, open) {
     const heads = keys.map((k) => el("th", { scope: "col", class: k.number && k.column ? "number" : "", title: k.help ?? null, "data-key": k.key },
         el("button", { type: "button", onclick: () => sort_by(k) }, k.title, k.unit ? el("small", {}, k.unit) : "")));
     const body = el("tbody");
-    $("rows").replaceChildren(el("table", { class: "plain rows" }, el("thead", {}, el("tr", {}, ...heads)), body));
+    const widths = keys.map((k) => el("col", { class: k.key === "technique" || k.key === "setting" ? "wide" : k.column ? "narrow" : "middling" }));
+    $("rows").replaceChildren(el("table", { class: "plain rows" }, el("colgroup", {}, ...widths), el("thead", {}, el("tr", {}, ...heads)), body));
 
     function sort_by(key) {
         sort = { key: key.key, down: sort.key === key.key ? !sort.down : Boolean(key.descending_first) };
@@ -41,12 +43,28 @@ function make_table(state, open) {
             if (x === null || y === null) return (x === null) - (y === null);  // what is missing comes last either way
             return direction * (typeof x === "string" ? x.localeCompare(y) : x - y) || a.m - b.m || a.v - b.v || a.t - b.t;
         });
-        mark_best();
-        body.replaceChildren(...shown_rows.map(line_of));
+        best_numbers = find_best();
+        body.replaceChildren();
+        lay_out(page_rows);
+        $("rows").scrollTop = 0;
         heads.forEach((head, i) => (keys[i] === key ? head.setAttribute("aria-sort", sort.down ? "descending" : "ascending") : head.removeAttribute("aria-sort")));
         $("table-count").textContent = `${shown_rows.length} of ${page.rows.length} rows`;
     }
-    function mark_best() {
+    const page_rows = 150;
+    let best_numbers = new Map();
+    function lay_out(count) {
+        const from = body.rows.length;
+        for (const row of shown_rows.slice(from, from + count)) {
+            const line = line_of(row), numbers = best_numbers.get(row.m + "/" + row.v);
+            columns.forEach((_, i) => line.cells[i + 4].classList.toggle("best", row.n[i] !== null && row.n[i] === numbers[i]));
+            body.append(line);
+        }
+    }
+    $("rows").addEventListener("scroll", ({ target }) => {
+        if (target.scrollTop + 2 * target.clientHeight > target.scrollHeight && body.rows.length < shown_rows.length) lay_out(page_rows);
+    });
+    addEventListener("beforeprint", () => lay_out(shown_rows.length));
+    function find_best() {
         const best_at = new Map();  // place -> best number per column
         const better = (a, b, small) => (small ? a < b : a > b);
         for (const row of shown_rows) {
@@ -55,10 +73,7 @@ function make_table(state, open) {
             const numbers = best_at.get(place);
             columns.forEach((c, i) => { if (row.n[i] !== null && (numbers[i] === null || better(row.n[i], numbers[i], c.small))) numbers[i] = row.n[i]; });
         }
-        for (const row of shown_rows) {
-            const cells = line_of(row).cells, numbers = best_at.get(row.m + "/" + row.v);
-            columns.forEach((_, i) => cells[i + 4].classList.toggle("best", row.n[i] !== null && row.n[i] === numbers[i]));
-        }
+        return best_at;
     }
     function csv() {
         const quoted = (text) => (/[",\n]/.test(text) ? '"' + text.replaceAll('"', '""') + '"' : text);
