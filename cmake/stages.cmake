@@ -5,6 +5,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(Vulkan REQUIRED)
 find_package(glfw3 REQUIRED)
+find_package(ZLIB REQUIRED)
 
 # Debian's OpenImageIOConfig.cmake pulls in Imath's Python bindings, which are not installed; the two libraries are all we need.
 find_library(OPENIMAGEIO_LIBRARY OpenImageIO REQUIRED)
@@ -17,6 +18,8 @@ target_include_directories(relievo_openimageio SYSTEM INTERFACE $<BUILD_INTERFAC
 
 add_library(relievo_options INTERFACE)
 target_compile_options(relievo_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow
+  -Wno-missing-field-initializers  # designated initializers leave defaults out on purpose
+ 
   $<$<BOOL:${RELIEVO_WARNINGS_AS_ERRORS}>:-Werror>
   # Results must not depend on whether the compiler fuses a multiply with an add: CPU and GPU are compared bit by bit in places.
   -ffp-contract=off)

@@ -24,14 +24,15 @@ vec2 uv_at(SurfaceRay ray, float z) {
 }
 
 // The ray that comes down from the light and ends `bias` above the hit: whatever it meets shadows the hit. A light at or below
-// the plane's horizon must be handled by the caller (its ray never enters the slab).
+// the plane's horizon must be handled by the caller (its ray never enters the slab). A hit within `bias` of the top leaves a ray
+// of no length above every field: cut off at 1 instead, it would end in the hit itself and find every plateau in shadow.
 SurfaceRay light_ray(SurfaceRay ray, SurfaceHit hit, vec3 to_light, float bias) {
     SurfaceRay r = ray;
     r.view = to_light;
     r.uv_per_height = vec2(to_light.x, to_light.y) * (ray.height_scale / max(to_light.z, min_view_z));
     r.uv = hit.uv + (ray.zero_level - hit.height) * r.uv_per_height;
-    r.z_start = 1.0f;
-    r.z_end = min(hit.height + bias, 1.0f);
+    r.z_end = hit.height + bias;
+    r.z_start = max(1.0f, r.z_end);
     return r;
 }
 

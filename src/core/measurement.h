@@ -38,7 +38,7 @@ struct Measured {
     const T* operator->() const { return &*value; }
 };
 
-// Shares are in [0,1] of the pixels where the reference has a hit.
+// Shares are in [0,1] of the pixels where the reference has a hit; that of the shadow, of those where the picture has one too.
 struct Measurement {
     Measured<double> missed_first_hit;      // share of hits late by more than half a texel along the ray, or not found at all
     Measured<double> early_hit;             // share of hits early by more than half a texel

@@ -14,7 +14,7 @@
 namespace relievo {
 
 // A descending ray in texture space: at height z it stands over uv + (z - zero_level) * uv_per_height; searched from z_start
-// down to z_end. uv_per_height is height_scale * view.xy / view.z.
+// down to z_end <= z_start. uv_per_height is height_scale * view.xy / view.z; all finite, start and end within 2e9 texels.
 struct ReferenceRay {
     Vec2d uv;
     Vec2d uv_per_height;
@@ -30,23 +30,29 @@ struct ReferenceHit {
     Vec2i cell;         // bilinear cell of the hit, not wrapped
 };
 
-// Every field is at least 0 and a ray with z_end = 0 reaches the floor, so it always finds a hit.
+// The first point at which the field is no lower than the ray. Every field is at least 0 and a ray with z_end = 0 reaches the
+// floor, so it always finds a hit. Not found: uv is where the ray ends. The field must not be empty.
 ReferenceHit reference_cast(const HeightField& field, const ReferenceRay& ray);
 
 // Whether the straight line from a surface point toward a light (unit, tangent space) meets the surface again before it leaves
-// the slab. The point's own patch counts only where the line goes back into it; a light at or below the plane is hidden.
+// the slab at z = 1: true means hidden. A point whose patch faces away from the light is hidden, so is every point from a light
+// at or below the plane; a line that only touches the surface is not. The point must be found, and lie in its cell.
 bool reference_shadow(const HeightField& field, const ReferenceHit& point, Vec3d to_light, double height_scale);
 
 struct ReferenceSettings {
     float height_scale = 0.05f;
     float zero_level = 1;
     bool shadow = true;   // cast exact hard shadows from the key light (the first)
+    Vec2d uv_at_origin{1, 1};  // texture coordinate of the world's origin: half the quad's periods; places the hit for lights at a distance
     int threads = 0;      // 0: all cores; the result does not depend on it
 };
 
 // The true picture. samples[0] are the rays through the pixel centres and fill every plane; colour averages the shaded hits of
 // all samples in linear light. Lights are in world space, of which tangent space is a translation here (flat base, t = +x).
-// Shading: lighting.h's Phong on bilinear colour and normals at the exact hit, trilinear at the rays' lod.
+// Shading: lighting.h's Phong on colour and normals at the exact hit, filtered bilinearly (colour texels decoded to linear
+// first) and between the two levels of the map's chain next to clamp(lod + log2(longer side), 0, levels - 1). No highlight where
+// the normal faces away from the light. Pixels off the base hold the background. Fetches are 0: there are none to compare.
+// Throws Error where a map is missing; all samples are of one size.
 Frame reference_frame(std::span<const RayField> samples, const MapSet& maps, const Lighting& lighting,
                       const ReferenceSettings& settings, const Progress& progress = {});
 

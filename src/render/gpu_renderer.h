@@ -13,6 +13,16 @@
 
 namespace relievo {
 
+struct GpuDevice {
+    std::string name;
+    std::string driver;
+    bool software;      // runs on the CPU
+    std::string lacks;  // what it lacks to be usable, or empty
+};
+
+// Every Vulkan device of this machine; none if there is no Vulkan.
+std::vector<GpuDevice> gpu_devices();
+
 enum class ShadowMode { none, hard };
 
 // A material on the device: its maps uploaded once.

@@ -31,10 +31,12 @@ Stage stage_for(const View& view) {
     Stage stage;
     const double e = radians(view.elevation_deg);
     const double a = radians(view.azimuth_deg);
-    // Farther when seen from above, where the whole square faces the camera; nearer at grazing views, where it is a thin band.
-    const double distance = 1.9 + 1.7 * std::sin(e);
+    // Near enough that the square fills the frame, about two and a half repeats wide; farther when seen from above, where a repeat
+    // is not foreshortened. At grazing views the square's far edge stays in sight: there a flat base betrays itself.
+    const double distance = 1.75 + 0.75 * std::sin(e);
     stage.camera.eye = Vec3d{std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)} * distance;
-    stage.camera.target = {0, 0, 0};
+    // Aimed a little short of the centre, so that the horizon stays in the upper quarter.
+    stage.camera.target = Vec3d{std::cos(a), std::sin(a), 0} * (0.25 * std::cos(e));
     stage.camera.fov_y_rad = radians(32);
 
     // 32 degrees above the surface: low enough that relief reads, high enough that shadows do not swallow the joints.

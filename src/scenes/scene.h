@@ -13,7 +13,7 @@ namespace relievo {
 
 // A square polygon in the plane z = 0, centred on the origin; one world unit is one repeat of the texture, u along +x, v along +y.
 struct Quad {
-    float periods = 2.0f;  // edge length, in repeats; UV runs from 0 to periods
+    float periods = 3.0f;  // edge length, in repeats; UV runs from 0 to periods
 };
 
 struct Stage {

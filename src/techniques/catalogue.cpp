@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace relievo {
 
@@ -11,6 +12,9 @@ namespace relievo {
 #define SHADER(name) .id = #name, .family = family_of(&heightfield::name), .heightfield = &heightfield::name
 
 namespace {
+
+float share(int steps) { return 1.0f / static_cast<float>(steps); }
+float halved(float length, int times) { return std::ldexp(length, -times); }
 
 constexpr Technique table[] = {
     {
@@ -23,6 +27,7 @@ constexpr Technique table[] = {
         .shaded_normals = false,
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 0; },
+        .budget = {.missed = 0.0f, .uv_p99_texels = 14.5f},
         .limits = "no relief of any kind",
     },
     {
@@ -34,6 +39,7 @@ constexpr Technique table[] = {
         .maps = {},
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 0; },
+        .budget = {.missed = 0.0f, .uv_p99_texels = 14.5f},
         .limits = "nothing shifts, hides or shadows: flat as soon as the view is grazing or moves",
     },
     {
@@ -42,9 +48,12 @@ constexpr Technique table[] = {
         .summary = "shifts the texture by the height found under the ray",
         .source = {"Kaneko et al.", 2001, "Detailed Shape Representation with Parallax Mapping"},
         .effects = {.motion_parallax = true},
+        .solves = {.level = true},
+        .precision = [](const MarchParams&, float) { return Precision{}; },
         .maps = {Map::height},
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 1; },
+        .budget = {.missed = 0.55f, .uv_p99_texels = 7.4f},
         .limits = "the shift grows without bound at grazing views and tears the texture",
     },
     {
@@ -56,6 +65,7 @@ constexpr Technique table[] = {
         .maps = {Map::height},
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 1; },
+        .budget = {.missed = 0.009f, .uv_p99_texels = 10.0f},
         .limits = "flattens toward the horizon; no part ever hides another",
     },
     {
@@ -64,9 +74,13 @@ constexpr Technique table[] = {
         .summary = "takes equal steps down the ray until one ends below the surface",
         .source = {"McGuire, McGuire", 2005, "Steep Parallax Mapping"},
         .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .solves = {.level = true, .ramp = true, .wedge = true, .step = true},
+        .precision = [](const MarchParams& p, float) { return Precision{.error = share(p.max_steps), .stride = share(p.max_steps)}; },
+        .converges = {&knob::max_steps},
         .maps = {Map::height},
         .knobs = {{knob::max_steps, 64}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps; },
+        .budget = {.missed = 0.004f, .uv_p99_texels = 0.27f},
         .limits = "slices the relief into terraces, and steps over what is thinner than a step",
     },
     {
@@ -74,11 +88,14 @@ constexpr Technique table[] = {
         .title = "Binary search alone",
         .summary = "halves the whole ray toward some crossing of the surface",
         .source = {"Policarpo, Oliveira, Comba", 2005, "Real-Time Relief Mapping on Arbitrary Polygonal Surfaces"},
-        .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .effects = {.motion_parallax = true, .self_shadow = true},
+        .solves = {.level = true, .ramp = true},
+        .precision = [](const MarchParams& p, float) { return Precision{.error = halved(1, p.refine_steps)}; },
         .maps = {Map::height},
         .knobs = {{knob::refine_steps, 10}},
         .max_fetches = [](const MarchParams& p) { return p.refine_steps; },
-        .limits = "finds a hidden crossing wherever the ray meets the surface more than once",
+        .budget = {.missed = 0.046f, .uv_p99_texels = 4.5f},
+        .limits = "finds a hidden crossing wherever the ray meets the surface more than once: half of what a wall hides is shown, four tenths of its shadow are lit",
     },
     {
         SHADER(relief_mapping),
@@ -86,9 +103,15 @@ constexpr Technique table[] = {
         .summary = "a linear search to bracket the surface, bisection to find it",
         .source = {"Policarpo, Oliveira, Comba", 2005, "Real-Time Relief Mapping on Arbitrary Polygonal Surfaces"},
         .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .solves = {.level = true, .ramp = true, .wedge = true, .step = true},
+        .precision = [](const MarchParams& p, float) {
+            return Precision{.error = halved(share(p.max_steps), p.refine_steps), .stride = share(p.max_steps)};
+        },
+        .converges = {&knob::max_steps, &knob::refine_steps},
         .maps = {Map::height},
         .knobs = {{knob::max_steps, 30}, {knob::refine_steps, 6}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps + p.refine_steps; },
+        .budget = {.missed = 0.0085f, .uv_p99_texels = 0.0092f},
         .limits = "sharp where it hits, but steps over what is thinner than a step",
     },
     {
@@ -100,6 +123,7 @@ constexpr Technique table[] = {
         .maps = {Map::height, Map::normal},
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 2; },
+        .budget = {.missed = 0.004f, .uv_p99_texels = 10.0f},
         .limits = "steep flanks stay where they are; no part ever hides another",
     },
     {
@@ -108,9 +132,13 @@ constexpr Technique table[] = {
         .summary = "repeats the shift from where it landed, damped by the slope",
         .source = {"Premecz", 2006, "Iterative Parallax Mapping with Slope Information"},
         .effects = {.motion_parallax = true},
+        .solves = {.level = true},
+        .precision = [](const MarchParams& p, float view_z) { return Precision{.error = std::pow(1 - view_z, static_cast<float>(p.iterations))}; },
+        .converges = {&knob::iterations},
         .maps = {Map::height, Map::normal},
         .knobs = {{knob::iterations, 4}},
         .max_fetches = [](const MarchParams& p) { return 2 * p.iterations; },
+        .budget = {.missed = 0.0125f, .uv_p99_texels = 6.5f},
         .limits = "settles on whichever crossing is near, so steep walls smear",
     },
     {
@@ -119,9 +147,16 @@ constexpr Technique table[] = {
         .summary = "a linear search with more steps at grazing views, then one secant",
         .source = {"Tatarchuk", 2006, "Dynamic Parallax Occlusion Mapping with Approximate Soft Shadows"},
         .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .solves = {.level = true, .ramp = true, .wedge = true, .step = true},
+        .precision = [](const MarchParams& p, float view_z) {
+            const float step = 1 / (view_z * static_cast<float>(p.min_steps) + (1 - view_z) * static_cast<float>(p.max_steps) - 0.5f);
+            return Precision{.error = step, .stride = step};
+        },
+        .converges = {&knob::max_steps, &knob::min_steps},
         .maps = {Map::height},
         .knobs = {{knob::max_steps, 64}, {knob::min_steps, 8}},
-        .max_fetches = [](const MarchParams& p) { return p.max_steps; },
+        .max_fetches = [](const MarchParams& p) { return p.max_steps + 1; },
+        .budget = {.missed = 0.007f, .uv_p99_texels = 0.13f},
         .limits = "cuts corners at steps, and steps over what is thinner than a step",
     },
     {
@@ -130,10 +165,14 @@ constexpr Technique table[] = {
         .summary = "leaps to the wall of the empty cone above each texel",
         .source = {"Dummer", 2006, "Cone Step Mapping: An Iterative Ray-Heightfield Intersection Algorithm"},
         .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .solves = {.level = true, .ramp = true},
+        .precision = [](const MarchParams& p, float) { return Precision{.error = p.tolerance}; },
+        .converges = {&knob::max_steps},
         .maps = {Map::cone},
         .knobs = {{knob::max_steps, 64}, {knob::tolerance, 1e-3f}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps; },
-        .limits = "creeps beside thin spikes and stops short when its steps run out; pierced by edges between texels",
+        .budget = {.missed = 0.014f, .uv_p99_texels = 0.86f},
+        .limits = "creeps beside thin spikes and stops short when its steps run out; cones blended between texels are too wide, so it enters sharp edges and ridges",
     },
     {
         SHADER(max_mip_tracing),
@@ -141,6 +180,9 @@ constexpr Technique table[] = {
         .summary = "skips empty nodes of a pyramid of maxima and solves each cell it may touch",
         .source = {"Tevs, Ihrke, Seidel", 2008, "Maximum Mipmaps for Fast, Accurate, and Scalable Dynamic Height Field Rendering"},
         .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .solves = {.level = true, .ramp = true, .wedge = true, .step = true},
+        .precision = [](const MarchParams&, float) { return Precision{}; },
+        .converges = {&knob::max_steps},
         .maps = {Map::height, Map::max_pyramid},
         .knobs = {{knob::max_steps, 2048}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps; },

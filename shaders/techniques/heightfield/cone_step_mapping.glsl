@@ -17,7 +17,9 @@ SurfaceHit cone_step_mapping(SurfaceRay ray, MarchParams params) {
         if (gap <= params.tolerance) {
             hit.found = true;
         } else {
-            z -= gap * height_cone.y / (height_cone.y + speed);
+            // A ratio quantised to 0 must not turn a vertical ray's step into 0/0; 1e-6 is far narrower than any texel.
+            float ratio = max(height_cone.y, 1e-6f);
+            z -= gap * ratio / (ratio + speed);
             inside = z > ray.z_end;
         }
     }

@@ -3,20 +3,21 @@
 // field; one fetch a node. Costs more the more grazing the ray and the spikier the field, never correctness, unless max_steps
 // ends the walk.
 #include "../../surface/bilinear_patch.glsl"
+#include "../../surface/cell_position.glsl"
 #include "../../surface/maps.glsl"
 #include "../../surface/ray_entry.glsl"
 
 SurfaceHit max_mip_tracing(SurfaceRay ray, MarchParams params) {
     ivec2 size = height_size();
-    vec2 texels = vec2(float(size.x), float(size.y));
-    vec2 speed = vec2(0.0f, 0.0f) - ray.uv_per_height * texels;  // cells per unit of descent
-    vec2 start = uv_at(ray, ray.z_start) * texels - vec2(0.5f, 0.5f);
+    vec2 speed = vec2(-ray.uv_per_height.x * float(size.x), -ray.uv_per_height.y * float(size.y));  // cells per unit of descent
 
     // The cell is kept in integers and the position relative to the first cell, so that rounding never loses a cell and does
     // not grow with the distance from the texture's origin.
-    ivec2 origin = ivec2(int(floor(start.x)), int(floor(start.y)));
-    vec2 offset = start - vec2(float(origin.x), float(origin.y));
-    ivec2 cell = ivec2(0, 0);  // relative to origin
+    CellPosition start_x = cell_position(ray.uv.x, ray.uv_per_height.x, ray.zero_level - ray.z_start, size.x);
+    CellPosition start_y = cell_position(ray.uv.y, ray.uv_per_height.y, ray.zero_level - ray.z_start, size.y);
+    ivec2 origin = ivec2(start_x.cell, start_y.cell);
+    vec2 offset = vec2(start_x.inside, start_y.inside);
+    ivec2 cell = ivec2(int(floor(offset.x)), int(floor(offset.y)));  // relative to origin
 
     // Skips are biased by a few units in the last place of a height near 1: a node within that of the ray is opened.
     float margin = 4e-7f;
@@ -60,12 +61,30 @@ SurfaceHit max_mip_tracing(SurfaceRay ray, MarchParams params) {
 
         bool skip = z_leave - margin > top_of_node;
         if (!skip && level == 0) {
-            vec2 entry = vec2(clamp(offset.x + speed.x * descent - float(cell.x), 0.0f, 1.0f),
-                              clamp(offset.y + speed.y * descent - float(cell.y), 0.0f, 1.0f));
-            float root = patch_descent(corners, entry, ray.z_start - descent, speed, min(leave, descent_end) - descent);
-            if (root >= 0.0f) {
-                hit.found = true;
-                hit.height = ray.z_start - (descent + root);
+            // The walk's own position is good enough to choose cells, whose surfaces join, but not to solve one.
+            float z = ray.z_start - descent;
+            CellPosition x = cell_position(ray.uv.x, ray.uv_per_height.x, ray.zero_level - z, size.x);
+            CellPosition y = cell_position(ray.uv.y, ray.uv_per_height.y, ray.zero_level - z, size.y);
+            vec2 here = vec2(float(x.cell - origin.x - cell.x) + x.inside, float(y.cell - origin.y - cell.y) + y.inside);
+            // Descents from here at which the ray enters and leaves the cell; it entered before `here` where an opened node
+            // had the walk begin inside, or by rounding.
+            float enter = -descent;
+            float exit = descent_end - descent;
+            if (speed.x != 0.0f) {
+                enter = max(enter, ((speed.x > 0.0f ? 0.0f : 1.0f) - here.x) / speed.x);
+                exit = min(exit, ((speed.x > 0.0f ? 1.0f : 0.0f) - here.x) / speed.x);
+            }
+            if (speed.y != 0.0f) {
+                enter = max(enter, ((speed.y > 0.0f ? 0.0f : 1.0f) - here.y) / speed.y);
+                exit = min(exit, ((speed.y > 0.0f ? 1.0f : 0.0f) - here.y) / speed.y);
+            }
+            if (enter <= exit) {
+                vec2 entry = vec2(clamp(here.x + speed.x * enter, 0.0f, 1.0f), clamp(here.y + speed.y * enter, 0.0f, 1.0f));
+                float root = patch_descent(corners, entry, z - enter, speed, exit - enter);
+                if (root >= 0.0f) {
+                    hit.found = true;
+                    hit.height = z - (enter + root);
+                }
             }
             skip = true;
         }

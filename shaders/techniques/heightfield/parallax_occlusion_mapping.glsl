@@ -1,5 +1,5 @@
 // Parallax occlusion mapping (Tatarchuk 2006): a linear search with more steps the more grazing the view, then one secant
-// between the last two samples, taking the field for a straight line. At most max_steps fetches.
+// between the last two samples, taking the field for a straight line. At most max_steps + 1 fetches: the ends of every step.
 // Cheaper than bisection and smooth on smooth relief; on a step the straight line cuts the corner.
 #include "../../surface/maps.glsl"
 #include "../../surface/ray_entry.glsl"
@@ -11,20 +11,19 @@ SurfaceHit parallax_occlusion_mapping(SurfaceRay ray, MarchParams params) {
     hit.found = false;
     hit.height = ray.z_end;
     float z_before = ray.z_start;
-    float gap_before = 0.0f;  // height of the ray over the field; the slab's top touches the field at worst
-    bool known_before = false;
-    for (int i = 1; i <= steps && !hit.found; ++i) {
+    float gap_before = 0.0f;  // height of the ray over the field
+    // The first sample is where the ray enters: without it the first step's secant has only one end, and everything that
+    // stands within a step of the top, such as the faces of bricks, is seen a whole step too low.
+    for (int i = 0; i <= steps && !hit.found; ++i) {
         float z = mix(ray.z_start, ray.z_end, float(i) / float(steps));
         float gap = z - height_at(uv_at(ray, z));
         if (gap <= 0.0f) {
             hit.found = true;
-            // Before the first sample only the bound gap >= 0 is known, so the sample itself is the best guess.
-            float t = known_before ? gap_before / (gap_before - gap) : 1.0f;
-            hit.height = mix(z_before, z, t);
+            // gap_before is positive here, but for the entry, where there is no step yet and z is z_before.
+            hit.height = mix(z_before, z, gap_before / max(gap_before - gap, 1e-20f));
         }
         z_before = z;
         gap_before = gap;
-        known_before = true;
     }
     hit.uv = uv_at(ray, hit.height);
     return hit;

@@ -1,0 +1,53 @@
+// The maps' bindings and their accessors (surface/maps.glsl). Levels are always explicit: a derivative inside a search would be
+// undefined, and heights are the declared surface only at their finest level. A missing map is bound as one texel.
+#include "../../surface/maps.glsl"
+
+layout(set = 0, binding = 0) uniform sampler2D height_map;   // bilinear, one level
+layout(set = 0, binding = 1) uniform sampler2D normal_map;   // trilinear
+layout(set = 0, binding = 2) uniform sampler2D colour_map;   // trilinear, decoded from sRGB
+layout(set = 0, binding = 3) uniform sampler2D pyramid_map;  // nearest
+layout(set = 0, binding = 4) uniform sampler2D cone_map;     // bilinear, one level
+
+// Fetches of the search so far. The shade host never reads it, and the compiler drops it there.
+int fetch_count = 0;
+
+ivec2 height_size() { return textureSize(height_map, 0); }
+
+float height_at(vec2 uv) {
+    ++fetch_count;
+    return textureLod(height_map, uv, 0.0f).x;
+}
+
+vec4 height_cell(ivec2 cell) {
+    ++fetch_count;
+    // Gathered round the cell's middle, half a texel from any other choice of four; wrapped first, so that no precision is lost far
+    // from the origin. A gather starts at the upper left: (0,1), (1,1), (1,0), (0,0).
+    ivec2 size = height_size();
+    ivec2 wrapped = ivec2(cell.x % size.x, cell.y % size.y);
+    vec4 g = textureGather(height_map, (vec2(wrapped) + vec2(1.0f)) / vec2(size), 0);
+    return vec4(g.w, g.z, g.x, g.y);
+}
+
+vec3 normal_at(vec2 uv, float lod) {
+    ++fetch_count;
+    ivec2 size = textureSize(normal_map, 0);
+    return normalize(textureLod(normal_map, uv, lod + log2(float(max(size.x, size.y)))).xyz);
+}
+
+vec2 cone_at(vec2 uv) {
+    ++fetch_count;
+    return textureLod(cone_map, uv, 0.0f).xy;
+}
+
+int max_levels() { return textureQueryLevels(pyramid_map); }
+
+float max_at(ivec2 node, int level) {
+    ++fetch_count;
+    return texelFetch(pyramid_map, node, level).x;
+}
+
+// Linear albedo; not for searches, so it is not counted.
+vec3 colour_at(vec2 uv, float lod) {
+    ivec2 size = textureSize(colour_map, 0);
+    return textureLod(colour_map, uv, lod + log2(float(max(size.x, size.y)))).xyz;
+}

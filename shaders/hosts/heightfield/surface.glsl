@@ -1,0 +1,51 @@
+// The surface a technique found under a pixel, and the light it sends to the eye (core/lighting.h).
+#include "../../shading/attenuation.glsl"
+#include "../../shading/phong.glsl"
+#include "../../shading/self_shadow.glsl"
+#include "maps.glsl"
+#include "pixel.glsl"
+
+layout(constant_id = 0) const bool casts_shadow = true;    // the technique claims self-shadow and it is asked for
+layout(constant_id = 1) const bool shaded_normals = true;  // Technique::shaded_normals
+// Known when the pipeline is made, so that the loop over a few lights is unrolled and their fields are plain constants of the draw:
+// shading a textured quad with two lights on the software device took 47 ms of CPU time with a bound read from a buffer.
+layout(constant_id = 2) const int light_count = 1;
+
+vec3 surface_normal(SurfaceRay ray, SurfaceHit hit) {
+    return shaded_normals ? normal_at(hit.uv, ray.lod) : vec3(0.0f, 0.0f, 1.0f);
+}
+
+// World position of a hit: one world unit is one repeat of the texture, and the base's centre is the origin.
+vec3 surface_position(SurfaceRay ray, SurfaceHit hit) {
+    return vec3(hit.uv - vec2(0.5f * scene.periods), (hit.height - ray.zero_level) * ray.height_scale);
+}
+
+vec3 to_light(LightUniforms light, vec3 position) {
+    vec3 place = vec3(light.x, light.y, light.z);
+    return light.directional != 0 ? place : normalize(place - position);
+}
+
+// Share of the key light, the first, that arrives.
+float key_visibility(SurfaceRay ray, SurfaceHit hit) {
+    float visible = 1.0f;
+    if (casts_shadow && light_count > 0)
+        visible = self_shadow(ray, hit, to_light(first_lights[0], surface_position(ray, hit)), march);
+    return visible;
+}
+
+vec3 surface_colour(SurfaceRay ray, SurfaceHit hit) {
+    vec3 albedo = colour_at(hit.uv, ray.lod);
+    vec3 normal = surface_normal(ray, hit);
+    vec3 position = surface_position(ray, hit);
+    float visible = key_visibility(ray, hit);
+    vec3 result = vec3(scene.ambient_r, scene.ambient_g, scene.ambient_b) * albedo;
+    for (int i = 0; i < light_count; ++i) {
+        LightUniforms light = light_at(i);
+        float arrives = i == 0 ? visible : 1.0f;
+        if (light.directional == 0)
+            arrives *= attenuation(light.constant, light.linear, light.quadratic, length(vec3(light.x, light.y, light.z) - position));
+        result += arrives * vec3(light.r, light.g, light.b) *
+                  phong(albedo, scene.specular, scene.shininess, normal, ray.view, to_light(light, position));
+    }
+    return result;
+}

@@ -1,0 +1,75 @@
+#include "cli/commands.h"
+
+#include "cli/material_options.h"
+#include "cli/options.h"
+#include "cli/progress_display.h"
+#include "core/error.h"
+#include "pipeline/compare.h"
+#include "pipeline/render_picture.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace relievo {
+
+void add_render_command(CLI::App& app) {
+    struct Options {
+        RenderSettings settings;
+        std::string technique, view = "middle", size = "1280x720", shadow = "hard";
+        std::vector<std::string> set;
+        int samples = 5;
+        bool no_cache = false, json = false, quiet = false;
+    };
+    auto o = std::make_shared<Options>();
+    auto* verb = app.add_subcommand("render", "Draws one picture of a material by one technique");
+    add_material_options(*verb, o->settings.material);
+    verb->add_option("--technique", o->technique, "id (relievo list techniques), or 'reference' for the exact picture")->required();
+    verb->add_option("--set", o->set, "knob=value; may be repeated (relievo list knobs)");
+    verb->add_option("--view", o->view, "grazing, middle, steep or degrees above the plane")->capture_default_str();
+    verb->add_option("--size", o->size, "picture size, WIDTHxHEIGHT")->capture_default_str();
+    verb->add_option("--samples", o->samples, "samples per pixel: 1, 5, 9 or 25")->check(CLI::IsMember({1, 5, 9, 25}))->capture_default_str();
+    verb->add_option("--shadow", o->shadow, "none or hard")->check(CLI::IsMember({"none", "hard"}))->capture_default_str();
+    verb->add_option("--device", o->settings.device, "software, or part of a device's name (relievo list devices)");
+    verb->add_flag("--no-cache", o->no_cache, "bake every map anew");
+    verb->add_flag("--quiet", o->quiet, "no progress and no notes");
+    verb->add_flag("--json", o->json, "print what was drawn as JSON");
+    verb->add_option("--out", o->settings.out, "FILE.png: the picture; FILE.exr: colour, hit UV, height, normal, shadow, fetches and mask")->required();
+    verb->footer("Examples:\n  relievo render --material cobbles --technique relief_mapping --view grazing --out cobbles.png\n"
+                 "  relievo render --material wall --technique cone_step_mapping --set max_steps=32 --view 20 --out wall.exr");
+    verb->callback([o] {
+        RenderSettings& s = o->settings;
+        if (o->technique != "reference") {
+            s.technique = &parse_technique(o->technique);
+            s.params = parse_knobs(*s.technique, o->set);
+        } else if (!o->set.empty()) {
+            throw UsageError("the reference is exact and has no knobs, so --set does nothing");
+        }
+        const auto chosen = parse_views({o->view});
+        if (chosen.size() != 1) throw UsageError("render draws one view; --view names " + std::to_string(chosen.size()));
+        s.view = chosen.front();
+        const Size size = parse_size(o->size);
+        s.picture.width = size.width;
+        s.picture.height = size.height;
+        s.picture.shadow = o->shadow == "none" ? ShadowMode::none : ShadowMode::hard;
+        s.picture.offsets = sample_offsets(o->samples);
+        s.use_cache = !o->no_cache;
+        const RenderedPicture picture = render_picture(s, progress_display(o->quiet));
+        if (!o->quiet)
+            for (const std::string& note : picture.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+        if (o->json)
+            std::printf("%s\n", nlohmann::ordered_json{{"image", s.out},
+                                                       {"technique", o->technique},
+                                                       {"view", s.view.id},
+                                                       {"elevation_deg", s.view.elevation_deg},
+                                                       {"size", {size.width, size.height}},
+                                                       {"source", picture.source},
+                                                       {"fetches_mean", picture.mean_fetches},
+                                                       {"notes", picture.notes}}
+                                    .dump(2)
+                                    .c_str());
+    });
+}
+
+}  // namespace relievo

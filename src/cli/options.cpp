@@ -1,0 +1,106 @@
+#include "cli/options.h"
+
+#include "core/error.h"
+#include "core/suggest.h"
+#include "techniques/catalogue.h"
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+namespace relievo {
+
+namespace {
+
+template <class T>
+bool read_number(std::string_view text, T& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size();
+}
+
+std::vector<std::string> split(const std::vector<std::string>& texts) {
+    std::vector<std::string> parts;
+    for (const std::string& text : texts) {
+        std::istringstream stream(text);
+        for (std::string part; std::getline(stream, part, ',');)
+            if (!part.empty()) parts.push_back(part);
+    }
+    return parts;
+}
+
+template <class Table>
+std::vector<std::string> ids(const Table& table) {
+    std::vector<std::string> list;
+    for (const auto& entry : table) list.emplace_back(entry.id);
+    return list;
+}
+
+std::string plain(float value) {
+    std::ostringstream out;
+    out << value;
+    return out.str();
+}
+
+}  // namespace
+
+Size parse_size(const std::string& text) {
+    constexpr int largest = 16384;  // the smallest maxImageDimension2D found on real desktop devices
+    const auto x = text.find('x');
+    Size size{};
+    if (x == std::string::npos || !read_number(std::string_view(text).substr(0, x), size.width) ||
+        !read_number(std::string_view(text).substr(x + 1), size.height) || size.width < 1 || size.height < 1 ||
+        size.width > largest || size.height > largest)
+        throw UsageError("--size '" + text + "' is not WIDTHxHEIGHT with sides from 1 to " + std::to_string(largest) + ", as in 640x360");
+    return size;
+}
+
+std::vector<View> parse_views(const std::vector<std::string>& texts) {
+    std::vector<View> result;
+    for (const std::string& text : split(texts)) {
+        const auto view = parse_view(text);
+        if (!view) throw UsageError(unknown_word("view", text, ids(views())) + " Or degrees above the plane, from 1 to 90.");
+        result.push_back(*view);
+    }
+    return result;
+}
+
+const Technique& parse_technique(const std::string& id) {
+    const Technique* technique = find_technique(id);
+    if (technique == nullptr) throw UsageError(unknown_word("technique", id, ids(techniques())));
+    return *technique;
+}
+
+std::vector<const Technique*> parse_techniques(const std::vector<std::string>& texts) {
+    std::vector<const Technique*> result;
+    for (const std::string& id : split(texts)) result.push_back(&parse_technique(id));
+    return result;
+}
+
+MarchParams parse_knobs(const Technique& technique, const std::vector<std::string>& settings) {
+    MarchParams params = default_params(technique);
+    for (const std::string& setting : split(settings)) {
+        const auto equals = setting.find('=');
+        if (equals == std::string::npos) throw UsageError("--set '" + setting + "' is not knob=value");
+        const std::string id = setting.substr(0, equals);
+        const KnobDefault* declared = nullptr;
+        std::vector<std::string> known;
+        for (const KnobDefault& k : technique.knobs) {
+            known.emplace_back(k.knob->id);
+            if (k.knob->id == id) declared = &k;
+        }
+        if (declared == nullptr) {
+            if (known.empty()) throw UsageError("'" + std::string(technique.id) + "' has no knobs, so --set " + setting + " does nothing");
+            throw UsageError(unknown_word("knob", id, known) + " (knobs of " + std::string(technique.id) + ")");
+        }
+        float value = 0;
+        const Knob& k = *declared->knob;
+        if (!read_number(std::string_view(setting).substr(equals + 1), value) || !(value >= k.min && value <= k.max) ||
+            (k.is_integer() && value != std::floor(value)))
+            throw UsageError("--set " + setting + ": " + id + " takes " + (k.is_integer() ? "a whole number" : "a number") + " from " +
+                             plain(k.min) + " to " + plain(k.max));
+        k.set(params, value);
+    }
+    return params;
+}
+
+}  // namespace relievo

@@ -1,0 +1,24 @@
+// Words of the command line turned into entries of the tables; a misspelt one is a UsageError with a suggestion.
+#pragma once
+
+#include "scenes/view.h"
+#include "techniques/technique.h"
+
+#include <string>
+#include <vector>
+
+namespace relievo {
+
+struct Size {
+    int width;
+    int height;
+};
+
+Size parse_size(const std::string& text);                                        // "640x360", each side 1 to 16384
+std::vector<View> parse_views(const std::vector<std::string>& texts);            // names or degrees, commas allowed
+std::vector<const Technique*> parse_techniques(const std::vector<std::string>& texts);  // ids, commas allowed
+const Technique& parse_technique(const std::string& id);
+// "knob=value" settings over the technique's defaults; an undeclared knob or a value out of range is an error that says the range.
+MarchParams parse_knobs(const Technique& technique, const std::vector<std::string>& settings);
+
+}  // namespace relievo

@@ -1,0 +1,91 @@
+#include "gpu/image.h"
+
+#include <algorithm>
+
+namespace relievo::gpu {
+
+namespace {
+
+// Enough that a band of a large map is worth a submission, little against the maps themselves.
+constexpr std::size_t staging_bytes = std::size_t{8} << 20;
+
+}  // namespace
+
+Image make_image(const Device& device, vk::Format format, vk::Extent2D extent, std::uint32_t levels, vk::ImageUsageFlags usage) {
+    Image image;
+    image.format = format;
+    image.extent = extent;
+    image.levels = levels;
+    image.handle = vk::raii::Image(device.handle(), vk::ImageCreateInfo{.imageType = vk::ImageType::e2D,
+                                                                        .format = format,
+                                                                        .extent = {extent.width, extent.height, 1},
+                                                                        .mipLevels = levels,
+                                                                        .arrayLayers = 1,
+                                                                        .samples = vk::SampleCountFlagBits::e1,
+                                                                        .tiling = vk::ImageTiling::eOptimal,
+                                                                        .usage = usage,
+                                                                        .initialLayout = vk::ImageLayout::eUndefined});
+    const auto needs = image.handle.getMemoryRequirements();
+    image.memory = vk::raii::DeviceMemory(
+        device.handle(), vk::MemoryAllocateInfo{.allocationSize = needs.size,
+                                                .memoryTypeIndex = device.memory_type(needs.memoryTypeBits, vk::MemoryPropertyFlagBits::eDeviceLocal)});
+    image.handle.bindMemory(*image.memory, 0);
+    image.view = vk::raii::ImageView(device.handle(), vk::ImageViewCreateInfo{.image = *image.handle,
+                                                                              .viewType = vk::ImageViewType::e2D,
+                                                                              .format = format,
+                                                                              .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, levels, 0, 1}});
+    return image;
+}
+
+void transition(const vk::raii::CommandBuffer& commands, const Image& image, vk::ImageLayout from, vk::ImageLayout to) {
+    const vk::ImageMemoryBarrier2 barrier{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                          .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+                                          .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                          .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
+                                          .oldLayout = from,
+                                          .newLayout = to,
+                                          .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                          .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                          .image = *image.handle,
+                                          .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, image.levels, 0, 1}};
+    commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
+}
+
+Image make_texture(const Device& device, vk::Format format, vk::Extent2D extent, std::uint32_t levels, std::size_t bytes_per_texel,
+                   const WriteRow& write_row) {
+    Image image = make_image(device, format, extent, levels, vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
+    const Buffer staging = make_buffer(device, std::max(staging_bytes, extent.width * bytes_per_texel), vk::BufferUsageFlagBits::eTransferSrc);
+    device.run([&](const vk::raii::CommandBuffer& commands) {
+        transition(commands, image, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal);
+    });
+    for (std::uint32_t level = 0; level < levels; ++level) {
+        const std::uint32_t width = std::max(1u, extent.width >> level);
+        const std::uint32_t height = std::max(1u, extent.height >> level);
+        const std::size_t row_bytes = width * bytes_per_texel;
+        const auto band = static_cast<std::uint32_t>(std::min<std::size_t>(height, staging.size / row_bytes));
+        for (std::uint32_t y = 0; y < height; y += band) {
+            const std::uint32_t rows = std::min(band, height - y);
+            for (std::uint32_t r = 0; r < rows; ++r)
+                write_row(static_cast<int>(level), static_cast<int>(y + r), staging.as<std::byte>() + r * row_bytes);
+            device.run([&](const vk::raii::CommandBuffer& commands) {
+                const vk::BufferImageCopy region{.imageSubresource = {vk::ImageAspectFlagBits::eColor, level, 0, 1},
+                                                 .imageOffset = {0, static_cast<std::int32_t>(y), 0},
+                                                 .imageExtent = {width, rows, 1}};
+                commands.copyBufferToImage(*staging.handle, *image.handle, vk::ImageLayout::eTransferDstOptimal, region);
+            });
+        }
+    }
+    device.run([&](const vk::raii::CommandBuffer& commands) {
+        transition(commands, image, vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::eShaderReadOnlyOptimal);
+    });
+    return image;
+}
+
+void read_back(const vk::raii::CommandBuffer& commands, const Image& image, const Buffer& to) {
+    const vk::BufferImageCopy region{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
+                                     .imageExtent = {image.extent.width, image.extent.height, 1}};
+    commands.copyImageToBuffer(*image.handle, vk::ImageLayout::eTransferSrcOptimal, *to.handle, region);
+    full_barrier(commands);
+}
+
+}  // namespace relievo::gpu

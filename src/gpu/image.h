@@ -1,0 +1,36 @@
+// Two-dimensional images on the device: textures with given mip chains, and targets that are drawn to and read back.
+#pragma once
+
+#include "gpu/buffer.h"
+
+#include <cstddef>
+#include <functional>
+#include <span>
+
+namespace relievo::gpu {
+
+struct Image {
+    vk::raii::DeviceMemory memory = nullptr;
+    vk::raii::Image handle = nullptr;
+    vk::raii::ImageView view = nullptr;  // all levels
+    vk::Format format = vk::Format::eUndefined;
+    vk::Extent2D extent;
+    std::uint32_t levels = 1;
+};
+
+Image make_image(const Device& device, vk::Format format, vk::Extent2D extent, std::uint32_t levels, vk::ImageUsageFlags usage);
+
+void transition(const vk::raii::CommandBuffer& commands, const Image& image, vk::ImageLayout from, vk::ImageLayout to);
+
+// Writes row `y` of `level` as texels of the image's format to `out`.
+using WriteRow = std::function<void(int level, int y, std::byte* out)>;
+
+// A sampled image whose level k has extent >> k (at least 1), filled row by row. Rows travel through a small staging buffer, so
+// that a large map is never held twice. The image ends in the layout shader-read-only.
+Image make_texture(const Device& device, vk::Format format, vk::Extent2D extent, std::uint32_t levels, std::size_t bytes_per_texel,
+                   const WriteRow& write_row);
+
+// Reads a target that is in the layout transfer-source: rows top to bottom, texels tightly packed, into a buffer of that size.
+void read_back(const vk::raii::CommandBuffer& commands, const Image& image, const Buffer& to);
+
+}  // namespace relievo::gpu

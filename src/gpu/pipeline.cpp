@@ -1,0 +1,60 @@
+#include "gpu/pipeline.h"
+
+#include <vector>
+
+namespace relievo::gpu {
+
+namespace {
+
+vk::raii::ShaderModule module_of(const Device& device, std::span<const std::uint32_t> words) {
+    return {device.handle(), vk::ShaderModuleCreateInfo{.codeSize = words.size_bytes(), .pCode = words.data()}};
+}
+
+}  // namespace
+
+vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout, const DrawPipeline& settings) {
+    const auto vertex = module_of(device, settings.vertex);
+    const auto fragment = module_of(device, settings.fragment);
+    std::vector<vk::SpecializationMapEntry> entries;
+    for (std::uint32_t i = 0; i < settings.fragment_constants.size(); ++i)
+        entries.push_back({.constantID = i, .offset = i * static_cast<std::uint32_t>(sizeof(std::uint32_t)), .size = sizeof(std::uint32_t)});
+    const vk::SpecializationInfo constants{.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
+                                           .pMapEntries = entries.data(),
+                                           .dataSize = settings.fragment_constants.size_bytes(),
+                                           .pData = settings.fragment_constants.data()};
+    const vk::PipelineShaderStageCreateInfo stages[] = {
+        {.stage = vk::ShaderStageFlagBits::eVertex, .module = *vertex, .pName = "main"},
+        {.stage = vk::ShaderStageFlagBits::eFragment, .module = *fragment, .pName = "main", .pSpecializationInfo = &constants}};
+
+    const vk::PipelineVertexInputStateCreateInfo no_vertices;
+    const vk::PipelineInputAssemblyStateCreateInfo strip{.topology = vk::PrimitiveTopology::eTriangleStrip};
+    const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
+    const vk::PipelineRasterizationStateCreateInfo raster{.lineWidth = 1};
+    const vk::PipelineMultisampleStateCreateInfo one_sample{.rasterizationSamples = vk::SampleCountFlagBits::e1};
+    const vk::PipelineColorBlendAttachmentState write_all{.colorWriteMask = vk::FlagTraits<vk::ColorComponentFlagBits>::allFlags};
+    const std::vector<vk::PipelineColorBlendAttachmentState> attachments(settings.targets.size(), write_all);
+    const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = static_cast<std::uint32_t>(attachments.size()), .pAttachments = attachments.data()};
+    const vk::DynamicState dynamic[] = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
+    const vk::PipelineDynamicStateCreateInfo dynamic_state{.dynamicStateCount = 2, .pDynamicStates = dynamic};
+    const vk::PipelineRenderingCreateInfo rendering{.colorAttachmentCount = static_cast<std::uint32_t>(settings.targets.size()),
+                                                    .pColorAttachmentFormats = settings.targets.data()};
+    return {device.handle(), nullptr, vk::GraphicsPipelineCreateInfo{.pNext = &rendering,
+                                                                     .stageCount = 2,
+                                                                     .pStages = stages,
+                                                                     .pVertexInputState = &no_vertices,
+                                                                     .pInputAssemblyState = &strip,
+                                                                     .pViewportState = &viewport,
+                                                                     .pRasterizationState = &raster,
+                                                                     .pMultisampleState = &one_sample,
+                                                                     .pColorBlendState = &blend,
+                                                                     .pDynamicState = &dynamic_state,
+                                                                     .layout = layout}};
+}
+
+vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout, std::span<const std::uint32_t> compute) {
+    const auto module = module_of(device, compute);
+    return {device.handle(), nullptr,
+            vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute, .module = *module, .pName = "main"}, .layout = layout}};
+}
+
+}  // namespace relievo::gpu

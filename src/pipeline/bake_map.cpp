@@ -1,0 +1,124 @@
+#include "pipeline/bake_map.h"
+
+#include "assets/atomic_file.h"
+#include "assets/image_file.h"
+#include "core/error.h"
+#include "core/parallel_for.h"
+#include "pipeline/map_set_bake.h"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+
+namespace relievo {
+
+namespace {
+
+// Which way a value may move when it is stored in 16 bits without making the map unsafe to skip by.
+enum class Rounding { nearest, up, down };
+
+// A map as it goes into a file: EXR takes the values as they are; PNG takes values in [0,1].
+struct Sheet {
+    ImageF values;
+    std::vector<std::string_view> channel_names;
+    std::vector<Rounding> rounding;
+    bool is_signed = false;  // stored in PNG as x/2 + 1/2
+};
+
+// All levels of the pyramid on one sheet: the finest at the left, the others stacked upward at its right.
+ImageF pyramid_sheet(const MaxPyramid& pyramid) {
+    const ImageF& finest = pyramid.levels.front();
+    const int second = pyramid.levels.size() > 1 ? pyramid.levels[1].width : 0;
+    int stacked = 0;
+    for (std::size_t k = 1; k < pyramid.levels.size(); ++k) stacked += pyramid.levels[k].height;
+    ImageF sheet(finest.width + second, std::max(finest.height, stacked), 1);
+    int x0 = 0;
+    int y0 = 0;
+    for (std::size_t k = 0; k < pyramid.levels.size(); ++k) {
+        const ImageF& level = pyramid.levels[k];
+        for (int y = 0; y < level.height; ++y)
+            for (int x = 0; x < level.width; ++x) sheet(x0 + x, y0 + y) = level(x, y);
+        y0 = k == 0 ? 0 : y0 + level.height;
+        x0 = finest.width;
+    }
+    return sheet;
+}
+
+Sheet sheet_of(Map map, const MapSet& maps) {
+    switch (map) {
+        case Map::height: return {maps.height.texels, {"height"}, {Rounding::nearest}};
+        case Map::normal:
+            return {maps.normal.front(), {"normal.X", "normal.Y", "normal.Z"}, {Rounding::nearest, Rounding::nearest, Rounding::nearest}, true};
+        case Map::max_pyramid: return {pyramid_sheet(maps.max_pyramid), {"maximum"}, {Rounding::up}};
+        case Map::cone: return {maps.cone, {"height", "ratio"}, {Rounding::nearest, Rounding::down}};
+        case Map::colour: break;
+    }
+    throw UsageError("the colour map is not baked; it is the material's own picture");
+}
+
+// Values moved onto the 16-bit grid in the safe direction, so that the writer's rounding to nearest keeps them. A PNG has 1, 3 or
+// 4 channels that viewers agree on; two channels get an empty third.
+ImageF for_png(const Sheet& sheet) {
+    constexpr float steps = 65535.0f;
+    const ImageF& in = sheet.values;
+    const int channels = in.channels == 2 ? 3 : in.channels;
+    ImageF out(in.width, in.height, channels);
+    for (int y = 0; y < in.height; ++y)
+        for (int x = 0; x < in.width; ++x)
+            for (int c = 0; c < in.channels; ++c) {
+                const float value = sheet.is_signed ? in(x, y, c) * 0.5f + 0.5f : in(x, y, c);
+                const Rounding r = sheet.rounding[static_cast<std::size_t>(c)];
+                const float grid = value * steps;
+                out(x, y, c) = (r == Rounding::up ? std::ceil(grid) : r == Rounding::down ? std::floor(grid) : std::round(grid)) / steps;
+            }
+    return out;
+}
+
+}  // namespace
+
+BakedMap bake_map(const BakeSettings& settings, const Progress& progress) {
+    const std::filesystem::path out = settings.out;
+    const bool exr = out.extension() == ".exr";
+    if (!exr && out.extension() != ".png") throw UsageError("--out " + settings.out + ": a map is written as .png or .exr");
+    const AtomicFile probe(out);  // an unwritable target is known before the work
+
+    report(progress, "loading", 0);
+    Material material = load_source(settings.material);
+    report(progress, "baking", 0);
+    const auto began = std::chrono::steady_clock::now();
+    const Map wanted[] = {settings.map};
+    const BakedMaps baked = bake_maps(std::move(material), wanted,
+                                      {.threads = settings.threads, .use_cache = settings.use_cache, .progress = progress});
+    const auto ended = std::chrono::steady_clock::now();
+
+    BakedMap result{.width = 0,
+                    .height = 0,
+                    .ms = std::chrono::duration<double, std::milli>(ended - began).count(),
+                    .threads = settings.threads > 0 ? settings.threads : default_threads(),
+                    .from_cache = baked.from_cache,
+                    .notes = baked.notes};
+    if (settings.map == Map::colour) {
+        const Image8& colour = baked.maps.colour.front();
+        result.width = colour.width;
+        result.height = colour.height;
+        if (exr) throw UsageError("--out " + settings.out + ": the colour map is 8-bit sRGB and is written as .png");
+        write_png(out, colour, FirstRow::bottom);
+    } else {
+        const Sheet sheet = sheet_of(settings.map, baked.maps);
+        result.width = sheet.values.width;
+        result.height = sheet.values.height;
+        if (exr) {
+            std::vector<ExrChannel> channels;
+            for (int c = 0; c < sheet.values.channels; ++c)
+                channels.push_back({std::string(sheet.channel_names[static_cast<std::size_t>(c)]), &sheet.values, c});
+            write_exr(out, channels, FirstRow::bottom);
+        } else {
+            write_png_16(out, for_png(sheet), FirstRow::bottom);
+        }
+    }
+    report(progress, "baking", 1);
+    return result;
+}
+
+}  // namespace relievo

@@ -1,0 +1,31 @@
+// One map of one material, as a file.
+#pragma once
+
+#include "core/map_set.h"
+#include "core/progress.h"
+#include "pipeline/material_source.h"
+
+#include <string>
+
+namespace relievo {
+
+struct BakeSettings {
+    MaterialSource material;
+    Map map = Map::height;
+    std::string out;  // .png (8 or 16 bit, values in [0,1]; normals as n/2 + 1/2) or .exr (32-bit float, unscaled)
+    bool use_cache = true;
+    int threads = 0;
+};
+
+struct BakedMap {
+    int width = 0;
+    int height = 0;
+    double ms = 0;      // of the baking alone, without loading and writing
+    int threads = 0;
+    bool from_cache = false;
+    std::vector<std::string> notes;
+};
+
+BakedMap bake_map(const BakeSettings& settings, const Progress& progress);
+
+}  // namespace relievo

@@ -1,0 +1,281 @@
+#include "pipeline/compare.h"
+
+#include "assets/atomic_file.h"
+#include "assets/frame_file.h"
+#include "assets/image_file.h"
+#include "core/error.h"
+#include "core/parallel_for.h"
+#include "core/version.h"
+#include "maps/map_kinds.h"
+#include "measure/error_picture.h"
+#include "measure/measure.h"
+#include "pipeline/map_set_bake.h"
+#include "reference/cast.h"
+#include "report/page.h"
+#include "report/pixels.h"
+#include "techniques/catalogue.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <functional>
+#include <set>
+
+namespace relievo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// One technique at one setting.
+struct Contestant {
+    const Technique* technique;
+    MarchParams params;
+    bool has_pictures;  // the defaults are shown; the sweep only adds points to the plots
+};
+
+std::string utc_now() {
+    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text;
+}
+
+// A name as a folder: what is not a plain letter or digit becomes '_', so that any material's pictures have portable paths.
+std::string folder_name(const std::string& name) {
+    std::string result = name;
+    for (char& c : result)
+        if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.')) c = '_';
+    return result.empty() || result.front() == '.' ? "material" + result : result;
+}
+
+KnobValues knob_values(const Technique& technique, const MarchParams& params) {
+    KnobValues values;
+    for (const KnobDefault& k : technique.knobs) values.emplace_back(std::string(k.knob->id), k.knob->get(params));
+    return values;
+}
+
+// The technique's first knob is its budget: its default divided and multiplied by two and four. An exact technique has none (its
+// steps are a limit that it does not reach), and one without knobs is a single point.
+std::vector<Contestant> sweep_of(const Technique& technique) {
+    std::vector<Contestant> result;
+    if (technique.exact || technique.knobs.count == 0) return result;
+    const KnobDefault& budget = *technique.knobs.begin();
+    for (const float factor : {0.25f, 0.5f, 2.0f, 4.0f}) {
+        MarchParams params = default_params(technique);
+        budget.knob->set(params, budget.value * factor);
+        if (budget.knob->get(params) != budget.value) result.push_back({&technique, params, false});
+    }
+    return result;
+}
+
+std::vector<Map> maps_of(const std::vector<const Technique*>& list) {
+    std::vector<Map> maps{Map::height, Map::normal, Map::colour};
+    for (const Technique* t : list)
+        for (const Map m : t->maps)
+            if (std::ranges::find(maps, m) == maps.end()) maps.push_back(m);
+    return maps;
+}
+
+TimeSpread spread(std::vector<double> ms) {
+    std::ranges::sort(ms);
+    const std::size_t n = ms.size();
+    const double median = n % 2 == 1 ? ms[n / 2] : (ms[n / 2 - 1] + ms[n / 2]) / 2;
+    return {ms.front(), median, ms.back(), static_cast<int>(n)};
+}
+
+// Counts finished units of work, so that the progress is one line over the whole comparison.
+struct Counter {
+    const Progress& progress;
+    std::string stage;
+    int total;
+    int done = 0;
+    void step() { report(progress, stage, static_cast<double>(++done) / total); }
+    void stay() const { report(progress, stage, static_cast<double>(done) / total); }
+};
+
+class Comparison {
+public:
+    Comparison(const CompareSettings& settings, const Progress& progress)
+        : settings_(settings), techniques_(settings.techniques), views_(settings.views), progress_(progress),
+          gpu_(settings.device, settings.validation) {
+        if (techniques_.empty())
+            for (const Technique& t : techniques()) techniques_.push_back(&t);
+        if (views_.empty()) views_.assign(views().begin(), views().end());
+        picture_.offsets = sample_offsets(settings.samples);
+        picture_.width = settings.width;
+        picture_.height = settings.height;
+        picture_.shadow = settings.shadow;
+    }
+
+    Results run() {
+        const auto began = std::chrono::steady_clock::now();
+        const fs::path out = settings_.out;
+        make_folder(out);
+        // Held from the beginning: an unwritable folder is known before the work, and an interrupted run leaves no results.
+        const AtomicFile json(out / "results.json");
+
+        Results results;
+        results.manifest = {.command = settings_.command,
+                            .version = std::string(version),
+                            .date = utc_now(),
+                            .device = gpu_.device_name(),
+                            .driver = gpu_.driver(),
+                            .width = settings_.width,
+                            .height = settings_.height,
+                            .runs = settings_.runs,
+                            .samples_per_pixel = settings_.samples,
+                            .shadow = settings_.shadow == ShadowMode::hard ? "hard" : "none",
+                            .threads = settings_.threads > 0 ? settings_.threads : default_threads(),
+                            .seconds = 0,
+                            .docs = {},
+                            .materials = {}};
+        results.error_legend = hit_error_legend();
+        results.fetches_legend = fetches_legend();
+        for (const MapKind& m : map_kinds()) results.maps.push_back({m.map, std::string(m.id), std::string(m.title), std::string(m.summary)});
+
+        const auto units = settings_.materials.size() * (1 + views_.size() * techniques_.size());
+        Counter counter{progress_, "comparing " + std::to_string(techniques_.size()) + " techniques on " +
+                                       std::to_string(settings_.materials.size()) + " materials", static_cast<int>(units)};
+        for (const MaterialSource& source : settings_.materials) compare_material(source, out, results, counter);
+
+        results.manifest.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+        write_file_atomically(out / "results.csv", results_csv(results));
+        write_file_atomically(out / "index.html", page_html(results));
+        write_file_atomically(json.target(), results_json(results));
+        if (const auto messages = gpu_.validation_messages(); !messages.empty())
+            throw Error("trust", "the Vulkan calls of this run", "the validation layers said: " + messages.front());
+        return results;
+    }
+
+private:
+    static void make_folder(const fs::path& folder) {
+        std::error_code error;
+        fs::create_directories(folder, error);
+        if (!fs::is_directory(folder)) throw Error("make folder", folder.string(), error ? error.message() : "a file of that name is in the way");
+    }
+
+    void compare_material(const MaterialSource& source, const fs::path& out, Results& results, Counter& counter) {
+        counter.stay();
+        Material material = load_source(source);
+        std::string name = folder_name(material.name);
+        for (int copy = 2; !names_.insert(name).second; ++copy) name = folder_name(material.name) + "-" + std::to_string(copy);
+
+        BakedMaps baked = bake_maps(std::move(material), maps_of(techniques_), {.threads = settings_.threads, .use_cache = settings_.use_cache});
+        results.manifest.materials.push_back({.name = name,
+                                              .width = baked.maps.height.width(),
+                                              .height = baked.maps.height.height(),
+                                              .height_scale = baked.height_scale,
+                                              .zero_level = baked.zero_level,
+                                              .physical_size_m = baked.physical_size_m,
+                                              .notes = baked.notes,
+                                              .input_hash = baked.input_hash});
+        const auto uploaded = gpu_.upload(baked.maps, baked.height_scale, baked.zero_level);
+        counter.step();
+        make_folder(out / "pictures" / name);
+        for (const View& view : views_) compare_view(view, name, baked, *uploaded, out, results, counter);
+    }
+
+    void compare_view(const View& view, const std::string& name, const BakedMaps& baked, const GpuMaterial& material, const fs::path& out,
+                      Results& results, Counter& counter) {
+        const Stage stage = stage_for(view);
+        std::vector<RayField> rays;
+        for (const Vec2f offset : picture_.offsets) rays.push_back(gpu_.rays(stage, material, settings_.width, settings_.height, offset));
+        const Frame truth = reference_frame(rays, baked.maps, stage.lighting,
+                                            {.height_scale = baked.height_scale,
+                                             .zero_level = baked.zero_level,
+                                             .shadow = settings_.shadow == ShadowMode::hard,
+                                             .uv_at_origin = Vec2d{stage.base.periods / 2.0, stage.base.periods / 2.0},
+                                             .threads = settings_.threads});
+        const std::string prefix = "pictures/" + name + "/" + folder_name(view.id) + "-";
+        const std::string reference_path = prefix + "reference.png";
+
+        const std::string reference_pixels = prefix + "reference-pixels.js";
+        const PixelSettings pixels{baked.maps.height.width(), baked.maps.height.height()};
+
+        std::vector<Contestant> contestants;
+        for (const Technique* t : techniques_) contestants.push_back({t, default_params(*t), true});
+        // The sweep is made in the first view only: it doubles the work, and one view shows how error falls with cost.
+        if (settings_.sweep && &view == &views_.front())
+            for (const Technique* t : techniques_)
+                for (const Contestant& c : sweep_of(*t)) contestants.push_back(c);
+
+        std::vector<GpuRenderer::Timed> timed;
+        for (const Contestant& c : contestants) timed.push_back({c.technique, c.params});
+        const auto times = gpu_.time(stage, material, timed, picture_, settings_.runs);
+
+        // Pictures are encoded together at the end, on all cores.
+        std::vector<std::function<void()>> writes;
+        writes.push_back([&] { write_frame_png(out / reference_path, truth.colour); });
+        writes.push_back([&] { write_file_atomically(out / reference_pixels, reference_pixel_script(truth)); });
+        for (std::size_t i = 0; i < contestants.size(); ++i) {
+            const Contestant& c = contestants[i];
+            auto frame = std::make_shared<Frame>(gpu_.draw(stage, material, *c.technique, c.params, picture_));
+            Row row{.technique = std::string(c.technique->id),
+                    .material = name,
+                    .view = view.id,
+                    .elevation_deg = view.elevation_deg,
+                    .knobs = knob_values(*c.technique, c.params),
+                    .m = measure(*frame, truth, rays.front(),
+                                 {.texels_x = baked.maps.height.width(), .texels_y = baked.maps.height.height(), .threads = settings_.threads})};
+            row.m.gpu_ms = spread(times[i]);
+            if (c.has_pictures) {
+                row.image = prefix + row.technique + ".png";
+                row.error_image = prefix + row.technique + "-error.png";
+                row.fetches_image = prefix + row.technique + "-fetches.png";
+                row.reference_image = reference_path;
+                row.pixels = prefix + row.technique + "-pixels.js";
+                row.reference_pixels = reference_pixels;
+                row.where = where_it_is_wrong(*frame, truth, rays.front(), pixels);
+                writes.push_back([frame, file = out / row.image] { write_frame_png(file, frame->colour); });
+                writes.push_back([frame, &truth, &rays, &baked, file = out / row.error_image] {
+                    const Vec2i texels{baked.maps.height.width(), baked.maps.height.height()};
+                    write_png(file, hit_error_picture(hit_error_texels(*frame, truth, rays.front(), texels, 1), 1), FirstRow::top);
+                });
+                writes.push_back([frame, &truth, &rays, pixels, file = out / row.pixels] {
+                    write_file_atomically(file, pixel_script(*frame, truth, rays.front(), pixels));
+                });
+                writes.push_back([frame, file = out / row.fetches_image] { write_png(file, fetches_picture(*frame, 1), FirstRow::top); });
+                results.rows.push_back(std::move(row));
+                counter.step();
+            } else {
+                row.no_picture = "a point of the budget sweep, measured but not kept as a picture";
+                results.sweep.push_back(std::move(row));
+                counter.stay();
+            }
+        }
+        parallel_for(static_cast<int>(writes.size()), 1, settings_.threads, [&](int begin, int end) {
+            for (int i = begin; i < end; ++i) writes[static_cast<std::size_t>(i)]();
+        });
+    }
+
+    const CompareSettings& settings_;
+    std::vector<const Technique*> techniques_;
+    std::vector<View> views_;
+    const Progress& progress_;
+    GpuRenderer gpu_;
+    PictureSettings picture_;
+    std::set<std::string> names_;
+};
+
+}  // namespace
+
+std::vector<Vec2f> sample_offsets(int samples) {
+    if (samples == 5) return {{0, 0}, {-0.375f, -0.125f}, {0.125f, -0.375f}, {0.375f, 0.125f}, {-0.125f, 0.375f}};
+    const int n = static_cast<int>(std::lround(std::sqrt(samples)));
+    assert(n * n == samples && n % 2 == 1);
+    std::vector<Vec2f> offsets;
+    const auto place = [n](int i) { return (static_cast<float>(i) + 0.5f) / static_cast<float>(n) - 0.5f; };
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) offsets.push_back({place(x), place(y)});
+    std::swap(offsets.front(), offsets[offsets.size() / 2]);
+    return offsets;
+}
+
+Results compare(const CompareSettings& settings, const Progress& progress) { return Comparison(settings, progress).run(); }
+
+}  // namespace relievo

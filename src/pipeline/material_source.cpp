@@ -1,0 +1,51 @@
+#include "pipeline/material_source.h"
+
+#include "assets/material_file.h"
+#include "core/error.h"
+#include "core/suggest.h"
+#include "scenes/scene.h"
+#include "textures/procedural.h"
+
+#include <filesystem>
+
+namespace relievo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Material make_procedural(const Scene& scene, const MaterialSource& source) {
+    Material material = procedural_material(scene.id, source.procedural_size, source.seed, source.threads);
+    material.height_scale = scene.height_scale;
+    return material;
+}
+
+}  // namespace
+
+Material load_source(const MaterialSource& source) {
+    const bool named_files = !source.colour.empty() || !source.height.empty() || !source.normal.empty();
+    if (source.folder.empty() && !named_files) throw UsageError("no material named: --material FOLDER, or --height FILE, or the id of a procedural one");
+
+    std::error_code ignored;
+    if (!source.folder.empty() && !fs::exists(source.folder, ignored)) {
+        if (const Scene* scene = find_scene(source.folder); scene != nullptr && !named_files) return make_procedural(*scene, source);
+        std::vector<std::string> ids;
+        for (const Scene& s : scenes()) ids.emplace_back(s.id);
+        const std::string near = nearest_word(source.folder, ids);
+        throw Error("open material", source.folder, "there is no such folder",
+                    near.empty() ? "Give a folder of maps, or a procedural material (relievo list scenes)."
+                                 : "Did you mean the procedural material '" + near + "'?");
+    }
+
+    std::vector<std::string> notes;
+    MaterialFiles files;
+    if (!source.folder.empty()) files = find_material_files(source.folder, notes);
+    if (!source.colour.empty()) files.colour = source.colour;
+    if (!source.height.empty()) files.height = source.height;
+    if (!source.normal.empty()) files.normal = source.normal;
+    Material material = load_material(files);
+    material.notes.insert(material.notes.begin(), notes.begin(), notes.end());
+    return material;
+}
+
+}  // namespace relievo

@@ -1,0 +1,64 @@
+#include "pipeline/render_picture.h"
+
+#include "assets/atomic_file.h"
+#include "assets/frame_file.h"
+#include "core/error.h"
+#include "pipeline/map_set_bake.h"
+#include "reference/cast.h"
+
+#include <filesystem>
+
+namespace relievo {
+
+RenderedPicture render_picture(const RenderSettings& settings, const Progress& progress) {
+    const std::filesystem::path out = settings.out;
+    const bool exr = out.extension() == ".exr";
+    if (!exr && out.extension() != ".png") throw UsageError("--out " + settings.out + ": a picture is written as .png or .exr");
+    const AtomicFile probe(out);  // an unwritable target is known before the work
+
+    report(progress, "loading", 0);
+    std::vector<Map> wanted{Map::height, Map::normal, Map::colour};
+    if (settings.technique != nullptr)
+        for (const Map m : settings.technique->maps) wanted.push_back(m);
+    const BakedMaps baked = bake_maps(load_source(settings.material), wanted,
+                                      {.threads = settings.material.threads, .use_cache = settings.use_cache, .progress = progress});
+
+    report(progress, "drawing", 0);
+    const Stage stage = stage_for(settings.view);
+    const PictureSettings& picture = settings.picture;
+    Frame frame;
+    if (settings.technique != nullptr) {
+        GpuRenderer gpu(settings.device, false);
+        frame = gpu.draw(stage, *gpu.upload(baked.maps, baked.height_scale, baked.zero_level), *settings.technique, settings.params, picture);
+    } else {
+        std::vector<RayField> rays;
+        for (const Vec2f offset : picture.offsets) rays.push_back(quad_rays(stage, picture.width, picture.height, Vec2d(offset)));
+        frame = reference_frame(rays, baked.maps, stage.lighting,
+                                {.height_scale = baked.height_scale,
+                                 .zero_level = baked.zero_level,
+                                 .shadow = picture.shadow == ShadowMode::hard,
+                                 .uv_at_origin = Vec2d{stage.base.periods / 2.0, stage.base.periods / 2.0},
+                                 .threads = settings.material.threads},
+                                progress);
+    }
+    if (exr) {
+        write_frame_exr(out, frame);
+    } else {
+        write_frame_png(out, frame.colour);
+    }
+    report(progress, "drawing", 1);
+
+    RenderedPicture result{.source = frame.source, .mean_fetches = 0, .notes = baked.notes};
+    double sum = 0;
+    int hits = 0;
+    for (int y = 0; y < frame.height; ++y)
+        for (int x = 0; x < frame.width; ++x)
+            if (frame.coverage(x, y) != static_cast<std::uint8_t>(Coverage::background)) {
+                sum += frame.fetches(x, y);
+                ++hits;
+            }
+    if (hits > 0) result.mean_fetches = sum / hits;
+    return result;
+}
+
+}  // namespace relievo

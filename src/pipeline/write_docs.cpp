@@ -1,0 +1,326 @@
+#include "pipeline/write_docs.h"
+
+#include "assets/atomic_file.h"
+#include "assets/image_file.h"
+#include "core/error.h"
+#include "core/parallel_for.h"
+#include "heightfield_functions.h"
+#include "maps/map_kinds.h"
+#include "measure/error_picture.h"
+#include "measure/hits.h"
+#include "pipeline/compare.h"
+#include "pipeline/map_set_bake.h"
+#include "reference/cast.h"
+#include "render/cpu_renderer.h"
+#include "render/gpu_renderer.h"
+#include "techniques/catalogue.h"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+namespace relievo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The field on which every chapter's numbers are taken: small, so that texts are made in seconds without a device.
+constexpr int measured_texels = 256;
+constexpr int measured_width = 240;
+constexpr int measured_height = 135;
+constexpr double measured_elevation_deg = 25;
+
+// The figures' own: large enough to see a texel's error.
+constexpr int figure_texels = 512;
+constexpr int panel_width = 480;
+constexpr int panel_height = 300;
+constexpr double figure_elevation_deg = 20;
+
+std::string number(double value, int digits = 2) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    return text;
+}
+
+std::string percent(double share) {
+    if (share == 0) return "0";
+    return number(share * 100) + " %";
+}
+
+// The comment that opens a technique's file: its idea, needs and failures, as its author put them.
+std::string opening_comment(std::string_view text) {
+    std::string result;
+    std::istringstream lines{std::string(text)};
+    for (std::string line; std::getline(lines, line) && line.starts_with("//");) {
+        line.erase(0, line.starts_with("// ") ? 3 : 2);
+        result += line + "\n";
+    }
+    return result;
+}
+
+// The code under that comment.
+std::string code_of(std::string_view text) {
+    std::string result;
+    bool opening = true;
+    std::istringstream lines{std::string(text)};
+    for (std::string line; std::getline(lines, line);) {
+        if (opening && line.starts_with("//")) continue;
+        opening = false;
+        result += line + "\n";
+    }
+    return result;
+}
+
+std::string map_names(const Technique& t) {
+    std::string text;
+    for (const Map m : t.maps) text += (text.empty() ? "" : ", ") + std::string(map_kinds()[static_cast<std::size_t>(m)].id);
+    return text.empty() ? "none" : text;
+}
+
+std::string effect_names(const Effects& e) {
+    std::string text;
+    const auto add = [&](bool has, const char* name) {
+        if (has) text += (text.empty() ? "" : ", ") + std::string(name);
+    };
+    add(e.motion_parallax, "motion parallax");
+    add(e.self_occlusion, "self-occlusion");
+    add(e.self_shadow, "self-shadow");
+    add(e.silhouette, "silhouettes");
+    return text.empty() ? "none" : text;
+}
+
+// A scene baked once, with the truth that every technique is measured against.
+struct Ground {
+    const Scene* scene;
+    BakedMaps baked;
+    RayField rays;
+    Frame truth;
+};
+
+Ground make_ground(const Scene& scene, int texels, int width, int height, double elevation, int threads) {
+    std::vector<Map> wanted;
+    for (const MapKind& m : map_kinds()) wanted.push_back(m.map);
+    Ground ground{&scene, {}, {}, {}};
+    ground.baked = bake_maps(load_source({.folder = std::string(scene.id), .procedural_size = texels, .threads = threads}),
+                             wanted, {.threads = threads});
+    const Stage stage = stage_for(View{.id = "docs", .elevation_deg = elevation});
+    ground.rays = quad_rays(stage, width, height, {0, 0});
+    ground.truth = reference_frame({&ground.rays, 1}, ground.baked.maps, stage.lighting,
+                                   {.height_scale = ground.baked.height_scale,
+                                    .zero_level = ground.baked.zero_level,
+                                    .shadow = true,
+                                    .uv_at_origin = Vec2d{stage.base.periods / 2.0, stage.base.periods / 2.0},
+                                    .threads = threads});
+    return ground;
+}
+
+struct SceneErrors {
+    double missed, early, p99, fetches;
+};
+
+SceneErrors errors_on(const Ground& ground, const Technique& t, int threads) {
+    const Stage stage = stage_for(View{.id = "docs", .elevation_deg = measured_elevation_deg});
+    const Frame frame = cpu_trace(ground.rays, ground.baked.maps, ground.baked.height_scale, ground.baked.zero_level, stage.lighting, t,
+                                  default_params(t), false, threads);
+    const HitMetrics m = hit_metrics(frame, ground.truth, ground.rays, {ground.baked.maps.height.width(), ground.baked.maps.height.height()}, threads);
+    return {*m.missed_first_hit, *m.early_hit, m.uv_error_texels->p99, m.fetches->mean};
+}
+
+std::string chapter(const Technique& t, const std::vector<std::pair<std::string, SceneErrors>>& measured, const Scene& shown) {
+    const std::string_view text = heightfield::text(t.id);
+    std::ostringstream out;
+    out << "# " << t.title << "\n\n*" << t.source.author << ", \"" << t.source.title << "\", " << t.source.year << ".*\n\n"
+        << "It " << t.summary << ".\n\n"
+        << "![" << t.title << ", the exact reference, and where they differ](../figures/" << t.id << ".png)\n\n"
+        << "*" << shown.title << " seen " << number(figure_elevation_deg) << " degrees above the plane. Left: " << t.id
+        << " at its default knobs. Middle: the exact reference. Right: where the hit is wrong; orange is late (behind the true surface), blue early, "
+           "brighter is farther, on a logarithmic scale from half a texel to 64 texels. Made by `relievo docs`.*\n\n"
+        << "## How it works\n\n"
+        << opening_comment(text) << "\n```glsl\n"
+        << code_of(text) << "```\n\nThe whole of [`" << t.id << ".glsl`](../../../shaders/techniques/heightfield/" << t.id
+        << ".glsl); `uv_at` and the ray are explained in [Conventions](../../concepts/conventions.md#the-ray).\n\n"
+        << "## What it needs and shows\n\n"
+        << "| | |\n|---|---|\n"
+        << "| maps of the search | " << map_names(t) << " |\n"
+        << "| effects | " << effect_names(t.effects) << " |\n"
+        << "| fetches, at most | " << t.max_fetches(default_params(t)) << " at the defaults |\n";
+    for (const KnobDefault& k : t.knobs)
+        out << "| `" << k.knob->id << "` = " << number(k.value, 4) << " | " << k.knob->help << " (" << number(k.knob->min, 4) << " to "
+            << number(k.knob->max, 4) << (k.knob->unit.empty() ? "" : " " + std::string(k.knob->unit)) << ") |\n";
+    out << "\n## How right it is\n\n"
+        << "Procedural materials of " << measured_texels << "^2 texels seen " << number(measured_elevation_deg) << " degrees above the plane, "
+        << measured_width << " x " << measured_height << " rays of the CPU run of the listing above, against the exact first hit:\n\n"
+        << "<!-- measured -->\n| scene | missed first hits | early hits | UV error, 99th percentile (texels) | fetches, mean |\n|---|---|---|---|---|\n";
+    for (const auto& [scene, e] : measured)
+        out << "| " << scene << " | " << percent(e.missed) << " | " << percent(e.early) << " | " << number(e.p99) << " | " << number(e.fetches, 3) << " |\n";
+    out << "<!-- /measured -->\n\n## Where it fails\n\n" << static_cast<char>(std::toupper(t.limits[0])) << t.limits.substr(1) << ".\n";
+    return out.str();
+}
+
+std::string techniques_page() {
+    std::ostringstream out;
+    out << "# Techniques, in order of year\n\n| year | technique | it ... | maps | effects | where it fails |\n|---|---|---|---|---|---|\n";
+    for (const Technique& t : techniques())
+        out << "| " << t.source.year << " | [" << t.title << "](techniques/" << t.id << ".md) | " << t.summary << " | " << map_names(t) << " | "
+            << effect_names(t.effects) << " | " << t.limits << " |\n";
+    return out.str();
+}
+
+std::string tables_page() {
+    std::ostringstream out;
+    out << "# Maps, knobs, scenes and views\n\n## Maps\n\n| id | what it holds | format | source |\n|---|---|---|---|\n";
+    for (const MapKind& m : map_kinds()) out << "| `" << m.id << "` | " << m.summary << " | " << m.format << " | " << m.source << " |\n";
+    out << "\n## Knobs\n\n| id | meaning | range | unit |\n|---|---|---|---|\n";
+    for (const Knob* k : knobs)
+        out << "| `" << k->id << "` | " << k->help << " | " << number(k->min, 4) << " to " << number(k->max, 4) << " | " << k->unit << " |\n";
+    out << "\n## Scenes\n\n| id | what it is there to show | height_scale |\n|---|---|---|\n";
+    for (const Scene& s : scenes()) out << "| `" << s.id << "` | " << s.summary << " | " << number(s.height_scale) << " |\n";
+    out << "\n## Views\n\n| id | degrees above the plane |\n|---|---|\n";
+    for (const View& v : views()) out << "| `" << v.id << "` | " << number(v.elevation_deg) << " |\n";
+    return out.str();
+}
+
+// Pictures side by side with a thin gap, as one.
+Image8 beside(const std::vector<Image8>& panels) {
+    constexpr int gap = 6;
+    int width = -gap;
+    for (const Image8& p : panels) width += p.width + gap;
+    Image8 sheet(width, panels.front().height, 3, 255);
+    int x0 = 0;
+    for (const Image8& p : panels) {
+        for (int y = 0; y < p.height; ++y)
+            for (int x = 0; x < p.width; ++x)
+                for (int c = 0; c < 3; ++c) sheet(x0 + x, y, c) = p(x, y, c);
+        x0 += p.width + gap;
+    }
+    return sheet;
+}
+
+Image8 stacked(const std::vector<Image8>& rows) {
+    Image8 sheet(rows.front().width, 0, 3);
+    for (const Image8& r : rows) {
+        sheet.texels.insert(sheet.texels.end(), r.texels.begin(), r.texels.end());
+        sheet.height += r.height;
+    }
+    return sheet;
+}
+
+Image8 srgb_picture(const ImageF& linear) {
+    Image8 out(linear.width, linear.height, 3);
+    for (std::size_t i = 0; i < out.texels.size(); ++i) out.texels[i] = srgb_from_linear(linear.texels[i]);
+    return out;
+}
+
+// Draws a technique on a scene on the GPU, with the reference and the error picture.
+class Figures {
+public:
+    Figures(const std::string& device, int threads) : gpu_(device, false), threads_(threads) {
+        settings_.width = panel_width;
+        settings_.height = panel_height;
+        settings_.offsets = sample_offsets(9);
+    }
+
+    struct Panels {
+        Image8 picture, reference, error;
+    };
+
+    Panels draw(const Technique& t, const Scene& scene) {
+        const Shown& shown = scene_of(scene);
+        const Frame frame = gpu_.draw(shown.stage, *shown.material, t, default_params(t), settings_);
+        const HeightField& field = shown.baked.maps.height;
+        const ImageF error = hit_error_texels(frame, shown.truth, shown.rays.front(), {field.width(), field.height()}, threads_);
+        return {srgb_picture(frame.colour), srgb_picture(shown.truth.colour), hit_error_picture(error, threads_)};
+    }
+
+private:
+    struct Shown {
+        Stage stage;
+        BakedMaps baked;
+        std::shared_ptr<const GpuMaterial> material;
+        std::vector<RayField> rays;
+        Frame truth;
+    };
+
+    const Shown& scene_of(const Scene& scene) {
+        const auto found = shown_.find(std::string(scene.id));
+        if (found != shown_.end()) return found->second;
+        Shown s;
+        s.stage = stage_for(View{.id = "figure", .elevation_deg = figure_elevation_deg});
+        std::vector<Map> wanted;
+        for (const MapKind& m : map_kinds()) wanted.push_back(m.map);
+        s.baked = bake_maps(load_source({.folder = std::string(scene.id), .procedural_size = figure_texels, .threads = threads_}),
+                            wanted, {.threads = threads_});
+        s.material = gpu_.upload(s.baked.maps, s.baked.height_scale, s.baked.zero_level);
+        for (const Vec2f o : settings_.offsets) s.rays.push_back(gpu_.rays(s.stage, *s.material, panel_width, panel_height, o));
+        s.truth = reference_frame(s.rays, s.baked.maps, s.stage.lighting,
+                                  {.height_scale = s.baked.height_scale,
+                                   .zero_level = s.baked.zero_level,
+                                   .shadow = true,
+                                   .uv_at_origin = Vec2d{s.stage.base.periods / 2.0, s.stage.base.periods / 2.0},
+                                   .threads = threads_});
+        return shown_.emplace(std::string(scene.id), std::move(s)).first->second;
+    }
+
+    GpuRenderer gpu_;
+    int threads_;
+    PictureSettings settings_;
+    std::map<std::string, Shown> shown_;
+};
+
+}  // namespace
+
+void write_docs(const DocsSettings& settings, const Progress& progress) {
+    const fs::path out = settings.out;
+    std::error_code failed;
+    fs::create_directories(out / "techniques", failed);
+    if (settings.figures) fs::create_directories(out / "figures", failed);
+    if (failed) throw Error("make folder", out.string(), failed.message());
+
+    std::vector<Ground> grounds;
+    const std::string stage = "writing the documentation";
+    const double units = static_cast<double>(scenes().size() + techniques().size());
+    double done = 0;
+    for (const Scene& scene : scenes()) {
+        grounds.push_back(make_ground(scene, measured_texels, measured_width, measured_height, measured_elevation_deg, settings.threads));
+        report(progress, stage, ++done / units);
+    }
+
+    std::unique_ptr<Figures> figures;
+    if (settings.figures) figures = std::make_unique<Figures>(settings.device, settings.threads);
+    for (const Technique& t : techniques()) {
+        std::vector<std::pair<std::string, SceneErrors>> measured;
+        for (const Ground& ground : grounds) measured.emplace_back(ground.scene->id, errors_on(ground, t, settings.threads));
+        // The figure shows the technique's weakness: the scene where most is missed, and cobbles where nothing is.
+        const Scene* shown = find_scene("cobbles");
+        double worst = 1e-3;
+        for (std::size_t i = 0; i < grounds.size(); ++i)
+            if (measured[i].second.missed > worst) {
+                worst = measured[i].second.missed;
+                shown = grounds[i].scene;
+            }
+        write_file_atomically(out / "techniques" / (std::string(t.id) + ".md"), chapter(t, measured, *shown));
+        if (figures) {
+            const auto panels = figures->draw(t, *shown);
+            write_png(out / "figures" / (std::string(t.id) + ".png"), beside({panels.picture, panels.reference, panels.error}), FirstRow::top);
+        }
+        report(progress, stage, ++done / units);
+    }
+    write_file_atomically(out / "techniques.md", techniques_page());
+    write_file_atomically(out / "tables.md", tables_page());
+
+    if (figures) {
+        // The front page's picture: from flat to exact, on one material, with the errors under each.
+        std::vector<Image8> pictures, errors;
+        for (const char* id : {"normal_mapping", "parallax_mapping", "linear_search", "cone_step_mapping", "max_mip_tracing"}) {
+            auto panels = figures->draw(*find_technique(id), *find_scene("cobbles"));
+            pictures.push_back(std::move(panels.picture));
+            errors.push_back(std::move(panels.error));
+        }
+        write_png(out / "figures" / "readme.png", stacked({beside(pictures), beside(errors)}), FirstRow::top);
+    }
+}
+
+}  // namespace relievo

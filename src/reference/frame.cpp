@@ -1,0 +1,173 @@
+#include "reference/cast.h"
+
+#include "core/error.h"
+#include "core/parallel_for.h"
+#include "reference/cell_walk.h"
+
+#include <array>
+
+namespace relievo {
+
+namespace {
+
+// IEC 61966-2-1.
+std::array<double, 256> make_srgb_table() {
+    std::array<double, 256> table{};
+    for (int i = 0; i < 256; ++i) {
+        const double c = i / 255.0;
+        table[static_cast<std::size_t>(i)] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+    }
+    return table;
+}
+const std::array<double, 256> linear_of_srgb = make_srgb_table();
+
+double value_of(float texel) { return texel; }
+double value_of(std::uint8_t texel) { return linear_of_srgb[texel]; }
+
+// Bilinear between texel centres, repeated; each texel decoded before it is weighed.
+template <class T>
+Vec3d bilinear(const Image<T>& image, Vec2d uv) {
+    const double x = uv.x * image.width - 0.5;
+    const double y = uv.y * image.height - 0.5;
+    const double fx = x - std::floor(x);
+    const double fy = y - std::floor(y);
+    const int i0 = wrap_index(static_cast<int>(std::floor(x)), image.width);
+    const int j0 = wrap_index(static_cast<int>(std::floor(y)), image.height);
+    const int i1 = i0 + 1 == image.width ? 0 : i0 + 1;
+    const int j1 = j0 + 1 == image.height ? 0 : j0 + 1;
+    const auto texel = [&](int i, int j) {
+        const T* t = image.at(i, j);
+        return Vec3d{value_of(t[0]), value_of(t[1]), value_of(t[2])};
+    };
+    return (texel(i0, j0) * (1 - fx) + texel(i1, j0) * fx) * (1 - fy) + (texel(i0, j1) * (1 - fx) + texel(i1, j1) * fx) * fy;
+}
+
+// `lod` is RayField's: of a map of one texel. Levels between two of the chain blend linearly.
+template <class T>
+Vec3d trilinear(const std::vector<Image<T>>& chain, Vec2d uv, double lod) {
+    const double finest = std::log2(std::max(chain[0].width, chain[0].height));
+    const double level = std::clamp(lod + finest, 0.0, static_cast<double>(chain.size() - 1));
+    const auto fine = static_cast<std::size_t>(level);
+    const double share = level - static_cast<double>(fine);
+    const Vec3d a = bilinear(chain[fine], uv);
+    return share > 0 ? a * (1 - share) + bilinear(chain[fine + 1], uv) * share : a;
+}
+
+struct Shaded {
+    ReferenceHit hit;
+    Vec3d normal;
+    Vec3d colour;
+    double key_visibility = 1;
+};
+
+class Shader {
+public:
+    Shader(const MapSet& maps, const Lighting& lighting, const ReferenceSettings& settings)
+        : maps_(maps), lighting_(lighting), settings_(settings) {
+        highest_ = *std::max_element(maps.height.texels.texels.begin(), maps.height.texels.texels.end());
+    }
+
+    Shaded operator()(const RayField& rays, int x, int y) const {
+        const float* v = rays.view.at(x, y);
+        const Vec3d view = normalize(Vec3d{v[0], v[1], v[2]});
+        const Vec2d uv_per_height = Vec2d{view.x, view.y} * (settings_.height_scale / std::max(view.z, flattest_cosine));
+        // Above the highest texel there is nothing to find.
+        const ReferenceRay ray{.uv = {rays.uv(x, y, 0), rays.uv(x, y, 1)},
+                               .uv_per_height = uv_per_height,
+                               .zero_level = settings_.zero_level,
+                               .z_start = std::clamp(highest_, 0.0, 1.0)};
+        Shaded result{.hit = reference_cast(maps_.height, ray), .normal = {}, .colour = {}};
+        const ReferenceHit& hit = result.hit;
+        const double lod = rays.lod(x, y);
+        const Vec3d albedo = trilinear(maps_.colour, hit.uv, lod);
+        result.normal = normalize(trilinear(maps_.normal, hit.uv, lod));
+        const Vec3d n = result.normal;
+
+        const Vec3d world{hit.uv.x - settings_.uv_at_origin.x, hit.uv.y - settings_.uv_at_origin.y,
+                          (hit.height - settings_.zero_level) * settings_.height_scale};
+        result.colour = Vec3d(lighting_.ambient) * albedo;
+        for (std::size_t k = 0; k < lighting_.lights.size(); ++k) {
+            const Light& light = lighting_.lights[k];
+            Vec3d l{light.position};
+            double fading = 1;
+            if (!light.directional) {
+                l = l - world;
+                const double d = length(l);
+                fading = 1 / (light.constant + light.linear * d + light.quadratic * d * d);
+            }
+            l = normalize(l);
+            double visibility = 1;
+            if (k == 0 && settings_.shadow) {
+                visibility = reference_shadow(maps_.height, hit, l, settings_.height_scale) ? 0 : 1;
+                result.key_visibility = visibility;
+            }
+            const double n_l = dot(n, l);
+            const Vec3d r = n * (2 * n_l) - l;
+            const double highlight = n_l > 0 ? std::pow(std::max(0.0, dot(r, view)), lighting_.shininess) : 0.0;
+            const Vec3d reflected = albedo * std::max(0.0, n_l) + Vec3d(lighting_.specular * highlight);
+            result.colour += Vec3d(light.colour) * reflected * (visibility * fading);
+        }
+        return result;
+    }
+
+private:
+    const MapSet& maps_;
+    const Lighting& lighting_;
+    const ReferenceSettings& settings_;
+    double highest_ = 1;
+};
+
+void store(ImageF& image, int x, int y, Vec3d v) {
+    image(x, y, 0) = static_cast<float>(v.x);
+    image(x, y, 1) = static_cast<float>(v.y);
+    image(x, y, 2) = static_cast<float>(v.z);
+}
+
+}  // namespace
+
+Frame reference_frame(std::span<const RayField> samples, const MapSet& maps, const Lighting& lighting,
+                      const ReferenceSettings& settings, const Progress& progress) {
+    assert(!samples.empty());
+    const auto require = [](bool present, const char* map) {
+        if (!present) throw Error("draw the reference of", "this material", std::string("it has no ") + map + " map", "bake or give one first");
+    };
+    require(!maps.height.empty(), "height");
+    require(!maps.normal.empty(), "normal");
+    require(!maps.colour.empty(), "colour");
+
+    const int width = samples[0].width;
+    const int height = samples[0].height;
+    Frame frame(width, height);
+    frame.source = "reference";
+    const Shader shade(maps, lighting, settings);
+    const auto rows = [&](int begin, int end) {
+        for (int y = begin; y < end; ++y) {
+            for (int x = 0; x < width; ++x) {
+                Vec3d sum;
+                for (std::size_t k = 0; k < samples.size(); ++k) {
+                    assert(samples[k].width == width && samples[k].height == height);
+                    const bool meets = samples[k].coverage(x, y) != static_cast<std::uint8_t>(Coverage::background);
+                    if (!meets) {
+                        sum += Vec3d(lighting.background);
+                        continue;
+                    }
+                    const Shaded s = shade(samples[k], x, y);
+                    sum += s.colour;
+                    if (k > 0) continue;
+                    frame.coverage(x, y) = static_cast<std::uint8_t>(Coverage::hit);
+                    frame.hit_uv(x, y, 0) = static_cast<float>(s.hit.uv.x);
+                    frame.hit_uv(x, y, 1) = static_cast<float>(s.hit.uv.y);
+                    frame.hit_height(x, y) = static_cast<float>(s.hit.height);
+                    store(frame.normal, x, y, s.normal);
+                    frame.shadow(x, y) = static_cast<float>(s.key_visibility);
+                }
+                store(frame.colour, x, y, sum * (1.0 / static_cast<double>(samples.size())));
+            }
+        }
+    };
+    // Few rows a block: grazing rows cost many times what steep ones do.
+    parallel_for(height, 4, settings.threads, rows, progress, "reference");
+    return frame;
+}
+
+}  // namespace relievo

@@ -1,0 +1,79 @@
+#include "render/cpu_renderer.h"
+
+#include "core/parallel_for.h"
+
+namespace relievo {
+
+namespace glsl {
+namespace {
+
+// What the shading text calls `technique`, for the calling thread.
+thread_local HeightFieldFunction technique = nullptr;
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"  // shader headers hold functions that only other files call
+#include "shading/self_shadow.glsl"
+#pragma GCC diagnostic pop
+
+}  // namespace
+}  // namespace glsl
+
+namespace {
+
+glsl::BoundMaps declared_maps(const MapSet& maps, const Technique& technique) {
+    glsl::BoundMaps bound = glsl::bind_maps(maps);
+    if (!technique.maps.contains(Map::height)) bound.height = nullptr;
+    if (!technique.maps.contains(Map::normal)) bound.normal = nullptr;
+    if (!technique.maps.contains(Map::max_pyramid)) bound.max_pyramid = nullptr;
+    if (!technique.maps.contains(Map::cone)) bound.cone = nullptr;
+    return bound;
+}
+
+Vec3f to_light(const Light& light, Vec3f position) { return light.directional ? light.position : normalize(light.position - position); }
+
+}  // namespace
+
+Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, float zero_level, const Lighting& lighting, const Technique& technique,
+                const MarchParams& params, bool shadow, int threads) {
+    Frame frame(rays.width, rays.height);
+    frame.source = "cpu";
+    const glsl::BoundMaps searched = declared_maps(maps, technique);
+    const glsl::BoundMaps all = glsl::bind_maps(maps);
+    const bool casts_shadow = shadow && technique.effects.self_shadow && !lighting.lights.empty();
+    const bool has_normals = technique.shaded_normals && !maps.normal.empty();
+    parallel_for(rays.height, 8, threads, [&](int begin, int end) {
+        glsl::technique = technique.heightfield;
+        for (int y = begin; y < end; ++y) {
+            for (int x = 0; x < rays.width; ++x) {
+                if (rays.coverage(x, y) != static_cast<std::uint8_t>(Coverage::hit)) continue;
+                const float* uv = rays.uv.at(x, y);
+                const float* view = rays.view.at(x, y);
+                const auto ray = glsl::view_ray({uv[0], uv[1]}, {view[0], view[1], view[2]}, height_scale, zero_level, rays.lod(x, y));
+                glsl::bound_maps = searched;
+                glsl::fetch_count = 0;
+                const auto hit = technique.heightfield(ray, params);
+                frame.coverage(x, y) = static_cast<std::uint8_t>(hit.found ? Coverage::hit : Coverage::no_hit);
+                if (!hit.found) continue;
+                frame.fetches(x, y) = static_cast<float>(glsl::fetch_count);
+                frame.hit_uv(x, y, 0) = hit.uv.x;
+                frame.hit_uv(x, y, 1) = hit.uv.y;
+                frame.hit_height(x, y) = hit.height;
+
+                const Vec3f position(hit.uv, (hit.height - zero_level) * height_scale);
+                frame.shadow(x, y) = casts_shadow ? glsl::self_shadow(ray, hit, to_light(lighting.lights[0], position), params) : 1.0f;
+
+                glsl::bound_maps = all;
+                const Vec3f normal = has_normals ? glsl::normal_at(hit.uv, ray.lod) : Vec3f{0, 0, 1};
+                frame.normal(x, y, 0) = normal.x;
+                frame.normal(x, y, 1) = normal.y;
+                frame.normal(x, y, 2) = normal.z;
+            }
+        }
+        // Leaves nothing bound that may not outlive this call.
+        glsl::bound_maps = {};
+        glsl::technique = nullptr;
+    });
+    return frame;
+}
+
+}  // namespace relievo

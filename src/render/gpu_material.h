@@ -1,0 +1,29 @@
+// A material's maps on the device, in the formats the accessors expect (shaders/hosts/heightfield/maps.glsl).
+#pragma once
+
+#include "core/map_set.h"
+#include "gpu/image.h"
+#include "render/family_layout.h"
+
+namespace relievo {
+
+class GpuMaterial {
+public:
+    // Maps that are missing from the set are bound as one texel: height 0, normal (0,0,1), mid-grey, pyramid 1, cone (0, 0).
+    // Throws Error if a mip chain does not halve from level to level or a map is larger than the device takes.
+    GpuMaterial(const gpu::Device& device, const FamilyLayout& layout, const MapSet& maps, float height_scale, float zero_level);
+
+    float height_scale() const { return height_scale_; }
+    float zero_level() const { return zero_level_; }
+    vk::DescriptorSet maps() const { return set_.handle; }
+    bool has(Map map) const { return has_[static_cast<std::size_t>(map)]; }
+
+private:
+    float height_scale_;
+    float zero_level_;
+    bool has_[map_count] = {};
+    gpu::Image height_, normal_, colour_, pyramid_, cone_;
+    DescriptorSet set_;
+};
+
+}  // namespace relievo

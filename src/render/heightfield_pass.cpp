@@ -1,0 +1,86 @@
+#include "render/heightfield_pass.h"
+
+#include "gpu/pipeline.h"
+#include "render/programs.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace relievo {
+
+namespace {
+
+std::span<const std::uint32_t> words_of(std::string_view host, std::string_view technique) {
+    const auto all = programs();
+    const auto it = std::ranges::find_if(all, [&](const Program& p) { return p.host == host && p.technique == technique; });
+    assert(it != all.end() && "the build makes a program of every host and technique");
+    return it->words;
+}
+
+}  // namespace
+
+vk::Pipeline HeightFieldPass::pipeline(const Draw& draw) {
+    const std::string_view id = draw.technique ? draw.technique->id : std::string_view{};
+    const bool casts_shadow = draw.shadow && draw.technique && draw.technique->effects.self_shadow;
+    const bool shaded_normals = draw.technique && draw.technique->shaded_normals;
+    // The specialization constants of surface.glsl; a host that runs no technique has none and ignores them.
+    const std::array<std::uint32_t, 3> constants{casts_shadow, shaded_normals, draw.technique ? draw.scene.light_count() : 0};
+    const Key key{draw.host.file, std::string(id), constants, draw.host.targets};
+    auto it = pipelines_.find(key);
+    if (it == pipelines_.end()) {
+        it = pipelines_
+                 .emplace(key, gpu::make_pipeline(device_, *layout_.draw_pipeline,
+                                                  gpu::DrawPipeline{.vertex = words_of("quad.vert", {}),
+                                                                    .fragment = words_of(draw.host.file, id),
+                                                                    .fragment_constants = constants,
+                                                                    .targets = draw.host.targets}))
+                 .first;
+    }
+    return *it->second;
+}
+
+vk::Pipeline HeightFieldPass::cast_pipeline(const Technique& technique) {
+    const Key key{"cast.comp", std::string(technique.id), {}, {}};
+    auto it = pipelines_.find(key);
+    if (it == pipelines_.end())
+        it = pipelines_.emplace(key, gpu::make_pipeline(device_, *layout_.cast_pipeline, words_of("cast.comp", technique.id))).first;
+    return *it->second;
+}
+
+void HeightFieldPass::record(const vk::raii::CommandBuffer& commands, const Draw& draw, std::span<const vk::ImageView> targets, vk::Extent2D extent) {
+    assert(targets.size() == draw.host.targets.size());
+    std::vector<vk::RenderingAttachmentInfo> attachments;
+    for (const vk::ImageView view : targets) {
+        const Vec3f clear = attachments.empty() ? draw.background : Vec3f{};
+        // Alpha 1 only where the picture is shown; the other hosts read 0 as "the pixel does not meet the base".
+        const bool picture = draw.host.targets.size() == 1;
+        attachments.push_back({.imageView = view,
+                               .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
+                               .loadOp = vk::AttachmentLoadOp::eClear,
+                               .storeOp = vk::AttachmentStoreOp::eStore,
+                               .clearValue = vk::ClearColorValue(std::array{clear.x, clear.y, clear.z, picture ? 1.0f : 0.0f})});
+    }
+    const vk::Rect2D area{{0, 0}, extent};
+    const vk::Pipeline drawn = pipeline(draw);
+    commands.beginRendering({.renderArea = area, .layerCount = 1, .colorAttachmentCount = static_cast<std::uint32_t>(attachments.size()), .pColorAttachments = attachments.data()});
+    commands.setViewport(0, vk::Viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1});
+    commands.setScissor(0, area);
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, drawn);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_.draw_pipeline, 0, {draw.material.maps(), draw.scene.set()}, {});
+    const DrawUniforms uniforms{draw.params, {draw.material.height_scale(), draw.material.zero_level()}};
+    commands.pushConstants<DrawUniforms>(*layout_.draw_pipeline, vk::ShaderStageFlagBits::eFragment, 0, uniforms);
+    commands.draw(4, 1, 0, 0);
+    commands.endRendering();
+}
+
+TargetSet make_targets(const gpu::Device& device, const FragmentHost& host, int width, int height) {
+    TargetSet targets;
+    targets.extent = vk::Extent2D{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+    for (const vk::Format format : host.targets)
+        targets.images.push_back(gpu::make_image(device, format, targets.extent, 1,
+                                                 vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc));
+    return targets;
+}
+
+}  // namespace relievo

@@ -1,0 +1,18 @@
+// The GPU programs compiled into this binary, one per host and technique (cmake/shaders.cmake).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace relievo {
+
+struct Program {
+    std::string_view host;       // file name in shaders/hosts/heightfield
+    std::string_view technique;  // id, or empty for a host that runs none
+    std::span<const std::uint32_t> words;
+};
+
+std::span<const Program> programs();
+
+}  // namespace relievo

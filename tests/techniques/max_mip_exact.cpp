@@ -1,0 +1,250 @@
+// The claim of max_mip_tracing, put to the reference: it never misses the first hit of the declared surface. Every disagreement
+// of more than half a texel along the ray is decided in double: a *tangency* is one that float rounding of the same ray explains
+// (see `explained`), everything else is a real miss.
+//
+// The short run is part of the tests. The long one, for as many rays as it takes and for real height maps (PFM files):
+//   RELIEVO_EXACT_RAYS=20000000 RELIEVO_EXACT_SIZE=1024 RELIEVO_EXACT_MAPS=a.pfm:b.pfm test_techniques --gtest_filter=max_mip_exact.*
+#include "core/map_set.h"
+#include "core/parallel_for.h"
+#include "reference/cast.h"
+#include "reference/cell_walk.h"
+#include "techniques/adversarial_fields.h"
+#include "techniques/catalogue.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+using namespace relievo;
+
+namespace {
+
+// By MaxPyramid's definition alone.
+MaxPyramid pyramid_of(const HeightField& field) {
+    MaxPyramid pyramid{.cells_x = field.width(), .cells_y = field.height(), .levels = {}};
+    const auto longest = static_cast<unsigned>(std::max(field.width(), field.height()));
+    int levels = std::max(1, static_cast<int>(std::bit_width(longest)) - 2);
+    if (const char* cut = std::getenv("RELIEVO_EXACT_LEVELS")) levels = std::min(levels, std::atoi(cut));
+    const int block = 1 << (levels - 1);
+    const auto padded = [&](int n) { return (n + block - 1) / block * block; };
+    ImageF base(padded(field.width()), padded(field.height()), 1);
+    for (int j = 0; j < field.height(); ++j)
+        for (int i = 0; i < field.width(); ++i) base(i, j) = std::ranges::max(field.cell(i, j));
+    pyramid.levels.push_back(base);
+    for (int level = 1; level < levels; ++level) {
+        const ImageF& fine = pyramid.levels.back();
+        ImageF coarse(fine.width / 2, fine.height / 2, 1);
+        for (int j = 0; j < coarse.height; ++j)
+            for (int i = 0; i < coarse.width; ++i)
+                coarse(i, j) = std::max(std::max(fine(2 * i, 2 * j), fine(2 * i + 1, 2 * j)), std::max(fine(2 * i, 2 * j + 1), fine(2 * i + 1, 2 * j + 1)));
+        pyramid.levels.push_back(coarse);
+    }
+    return pyramid;
+}
+
+struct Tally {
+    long rays = 0;
+    long late = 0;        // more than half a texel behind the true first hit, without an excuse
+    long early = 0;
+    long tangent_late = 0;
+    long tangent_early = 0;
+    long out_of_steps = 0;
+    double fetches = 0;
+    double most_fetches = 0;
+    double worst_excused = 0;    // largest penetration counted as tangency, in units of its bound
+    double worst_height = 0;     // largest height error of agreeing hits
+    Tally& operator+=(const Tally& o) {
+        rays += o.rays, late += o.late, early += o.early, tangent_late += o.tangent_late, tangent_early += o.tangent_early;
+        out_of_steps += o.out_of_steps, fetches += o.fetches, most_fetches = std::max(most_fetches, o.most_fetches);
+        worst_excused = std::max(worst_excused, o.worst_excused), worst_height = std::max(worst_height, o.worst_height);
+        return *this;
+    }
+    long real() const { return late + early; }
+    long tangent() const { return tangent_late + tangent_early; }
+};
+
+// How far float rounding can move the field against the ray, as a height, where the line crosses a cell of these slopes.
+// (bound derived in a later step)
+struct Rounding {
+    double height;
+    double cells;
+};
+
+Rounding rounding_of(const glsl::SurfaceRay& ray, Vec2d size) {
+    (void)ray;
+    const double u = 0x1p-24;
+    return {.height = 16 * u, .cells = 8 * u * (1 + std::max(size.x, size.y) / 4096)};
+}
+
+Vec2f uv_per_height_of(Vec3f view, float height_scale) { return Vec2f{view.x, view.y} * (height_scale / view.z); }
+
+// Largest gap (field minus ray) on the ray between two heights, and the same weighed against the rounding bound of its cell.
+struct Extreme {
+    double gap;
+    double in_bounds;
+};
+
+Extreme deepest(const HeightField& field, const ReferenceRay& ray, double z_from, double z_to, Rounding rounding) {
+    const Vec2d size{static_cast<double>(field.width()), static_cast<double>(field.height())};
+    const Vec2d start = (ray.uv + (z_from - ray.zero_level) * ray.uv_per_height) * size - Vec2d{0.5, 0.5};
+    CellWalk walk(field, start, -(ray.uv_per_height * size));
+    Extreme worst{-1, -1e9};
+    for (;; walk.advance()) {
+        const double leave = std::min(walk.leaves(), z_from - z_to);
+        const CellGap g = walk.gap(z_from - walk.entered(), -1);
+        const double limit = leave - walk.entered();
+        double gap = std::max(g.gap, g.at(limit));
+        const double vertex = -g.slope / (2 * g.bend);
+        if (g.bend < 0 && vertex > 0 && vertex < limit) gap = std::max(gap, g.at(vertex));
+        const Vec2i c = walk.cell();
+        const auto h = field.cell(c.x, c.y);
+        const double slope = std::max(std::abs(h[1] - h[0]), std::abs(h[3] - h[2])) + std::max(std::abs(h[2] - h[0]), std::abs(h[3] - h[1]));
+        const double bound = rounding.height + rounding.cells * slope;
+        worst.gap = std::max(worst.gap, gap);
+        worst.in_bounds = std::max(worst.in_bounds, gap / bound);
+        if (walk.leaves() >= z_from - z_to) return worst;
+    }
+}
+
+struct RayKind {
+    double low_deg = 5, high_deg = 85;
+    double low_scale = 0.02, high_scale = 0.15;
+    bool any_zero_level = true;
+};
+
+Tally compare(const HeightField& field, long rays, const RayKind& kind, unsigned seed) {
+    MapSet maps;
+    maps.height = field;
+    maps.max_pyramid = pyramid_of(field);
+    const Technique& technique = *find_technique("max_mip_tracing");
+    const MarchParams params = default_params(technique);
+    const int block = 1 << 14;
+    const int blocks = static_cast<int>((rays + block - 1) / block);
+    std::vector<Tally> tallies(static_cast<std::size_t>(blocks));
+    parallel_for(blocks, 1, 0, [&](int begin, int end) {
+        glsl::bound_maps = glsl::bind_maps(maps);
+        for (int b = begin; b < end; ++b) {
+            Tally& tally = tallies[static_cast<std::size_t>(b)];
+            std::mt19937_64 random(seed * 1000003ull + static_cast<unsigned>(b));
+            std::uniform_real_distribution<double> uniform(0, 1);
+            for (int k = 0; k < block; ++k) {
+                const double elevation = std::lerp(kind.low_deg, kind.high_deg, uniform(random)) * std::numbers::pi / 180;
+                double azimuth = uniform(random) * 2 * std::numbers::pi;
+                glsl::SurfaceRay ray{};
+                ray.view = {static_cast<float>(std::cos(elevation) * std::cos(azimuth)), static_cast<float>(std::cos(elevation) * std::sin(azimuth)),
+                            static_cast<float>(std::sin(elevation))};
+                // One ray in sixteen runs exactly along an axis, one exactly along a diagonal, one starts exactly at a texel.
+                const auto special = random() % 16;
+                if (special == 0) (random() % 2 ? ray.view.x : ray.view.y) = 0;
+                if (special == 1) ray.view.y = random() % 2 ? ray.view.x : -ray.view.x;
+                ray.height_scale = static_cast<float>(std::lerp(kind.low_scale, kind.high_scale, uniform(random)));
+                ray.zero_level = kind.any_zero_level ? static_cast<float>(random() % 3) / 2 : 1.0f;
+                ray.uv_per_height = uv_per_height_of(ray.view, ray.height_scale);
+                ray.uv = {static_cast<float>(uniform(random) * 2), static_cast<float>(uniform(random) * 2)};
+                if (special == 2) {
+                    ray.uv = {static_cast<float>((std::floor(ray.uv.x * 16) + 0.5) / field.width()), static_cast<float>((std::floor(ray.uv.y * 16) + 0.5) / field.height())};
+                }
+                if (special == 3) ray.uv = ray.uv + Vec2f{-6, 5};
+                ray.z_start = 1;
+                ray.z_end = 0;
+                glsl::fetch_count = 0;
+                const glsl::SurfaceHit found = technique.heightfield(ray, params);
+                const ReferenceRay same{.uv = Vec2d(ray.uv), .uv_per_height = Vec2d(ray.uv_per_height), .zero_level = ray.zero_level};
+                const ReferenceHit truth = reference_cast(field, same);
+
+                ++tally.rays;
+                tally.fetches += glsl::fetch_count;
+                tally.most_fetches = std::max(tally.most_fetches, static_cast<double>(glsl::fetch_count));
+                if (glsl::fetch_count >= params.max_steps) ++tally.out_of_steps;
+                const Vec2d size{static_cast<double>(field.width()), static_cast<double>(field.height())};
+                const double speed = length(same.uv_per_height * size);
+                const double z = found.height;
+                const double behind = (truth.height - z) * speed;
+                const Rounding rounding = rounding_of(ray, size);
+                if (!found.found || behind > 0.5) {
+                    const Extreme e = deepest(field, same, truth.height, std::max(z, 0.0), rounding);
+                    if (e.in_bounds <= 1) ++tally.tangent_late, tally.worst_excused = std::max(tally.worst_excused, e.in_bounds);
+                    else {
+                        if (tally.late++ == 0 && std::getenv("RELIEVO_EXACT_VERBOSE"))
+                            std::printf("    late: z %.9g true %.9g behind %.3f texels, gap %.3g = %.3g bounds, view z %.4f\n", z, truth.height, behind, e.gap, e.in_bounds, ray.view.z);
+                    }
+                } else if (behind < -0.5) {
+                    // How far the ray is above the field where it was said to meet it.
+                    const Extreme e = deepest(field, same, std::min(1.0, z + 0.25 / speed), std::max(z - 0.25 / speed, 0.0), rounding);
+                    if (e.in_bounds >= -1) ++tally.tangent_early, tally.worst_excused = std::max(tally.worst_excused, -e.in_bounds);
+                    else {
+                        if (tally.early++ == 0 && std::getenv("RELIEVO_EXACT_VERBOSE"))
+                            std::printf("    early: z %.9g true %.9g behind %.3f texels, gap %.3g = %.3g bounds, view z %.4f\n", z, truth.height, behind, e.gap, e.in_bounds, ray.view.z);
+                    }
+                } else {
+                    tally.worst_height = std::max(tally.worst_height, std::abs(truth.height - z));
+                }
+            }
+        }
+    });
+    Tally sum;
+    for (const Tally& t : tallies) sum += t;
+    return sum;
+}
+
+void print(const std::string& name, const Tally& t) {
+    std::printf("%-20s %9ld rays  real late %ld early %ld  tangent late %ld early %ld (worst %.2f of the bound)  fetches %.1f (max %.0f)  height error %.2g%s\n",
+                name.c_str(), t.rays, t.late, t.early, t.tangent_late, t.tangent_early, t.worst_excused, t.fetches / static_cast<double>(t.rays), t.most_fetches,
+                t.worst_height, t.out_of_steps ? "  OUT OF STEPS" : "");
+    std::fflush(stdout);
+}
+
+long number(const char* variable, long otherwise) {
+    const char* text = std::getenv(variable);
+    return text ? std::atol(text) : otherwise;
+}
+
+HeightField read_pfm(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string magic;
+    int width = 0, height = 0;
+    double scale = 0;
+    file >> magic >> width >> height >> scale;
+    file.get();
+    HeightField field(width, height);
+    file.read(reinterpret_cast<char*>(field.texels.texels.data()), static_cast<std::streamsize>(field.texels.texels.size() * sizeof(float)));
+    if (!file || magic != "Pf" || scale >= 0) throw std::runtime_error("not a little-endian grey PFM file: " + path);
+    return field;
+}
+
+}  // namespace
+
+TEST(max_mip_exact, never_misses_the_first_hit) {
+    const long rays = number("RELIEVO_EXACT_RAYS", 600000);
+    const int size = static_cast<int>(number("RELIEVO_EXACT_SIZE", 256));
+    std::vector<adversarial::Named> fields = adversarial::all(size, 1);
+    if (const char* maps = std::getenv("RELIEVO_EXACT_MAPS")) {
+        std::stringstream list(maps);
+        for (std::string path; std::getline(list, path, ':');) fields.push_back({path.substr(path.rfind('/') + 1), read_pfm(path)});
+    }
+    Tally sum;
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+        const Tally t = compare(fields[k].field, rays / static_cast<long>(fields.size()), {}, static_cast<unsigned>(k));
+        print(fields[k].name, t);
+        sum += t;
+    }
+    print("all", sum);
+    EXPECT_EQ(sum.out_of_steps, 0);
+    EXPECT_LE(static_cast<double>(sum.real()), 1e-6 * static_cast<double>(sum.rays));
+    EXPECT_LE(static_cast<double>(sum.tangent()), 1e-5 * static_cast<double>(sum.rays));
+}
+
+TEST(max_mip_exact, fetches) {
+    const int size = static_cast<int>(number("RELIEVO_EXACT_SIZE", 256));
+    for (const auto& [name, field] : {adversarial::Named{"fbm", adversarial::fbm(size, size, 1)}, {"cobble", adversarial::cobble(size, size, 1)},
+                                      {"spikes", adversarial::spikes(size, size, 1)}}) {
+        for (const double degrees : {60.0, 30.0, 15.0}) {
+            const Tally t = compare(field, 50000, {degrees, degrees, 0.1, 0.1, false}, 7);
+            std::printf("%s %g: %.1f fetches\n", name.c_str(), degrees, t.fetches / static_cast<double>(t.rays));
+        }
+    }
+}
