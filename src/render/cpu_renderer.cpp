@@ -1,5 +1,7 @@
 #include "render/cpu_renderer.h"
 
+#include "techniques/shadow_bias.h"
+
 #include "core/parallel_for.h"
 
 namespace relievo {
@@ -42,6 +44,7 @@ Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, fl
     const glsl::BoundMaps searched = declared_maps(maps, technique);
     const glsl::BoundMaps all = glsl::bind_maps(maps);
     const bool casts_shadow = shadow && technique.effects.self_shadow && !lighting.lights.empty();
+    const float bias = casts_shadow ? shadow_bias(technique, params) : 0;
     const bool has_normals = technique.shaded_normals && !maps.normal.empty();
     parallel_for(rays.height, 8, threads, [&](int begin, int end) {
         glsl::technique = technique.heightfield;
@@ -64,7 +67,7 @@ Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, fl
 
                 const Vec3f position(hit.uv, (hit.height - zero_level) * height_scale);
                 frame.shadow(x, y) =
-                    casts_shadow ? glsl::self_shadow(ray, hit, to_light(lighting.lights[0], position), params) : 1.0f;
+                    casts_shadow ? glsl::self_shadow(ray, hit, to_light(lighting.lights[0], position), bias, params) : 1.0f;
 
                 glsl::bound_maps = all;
                 const Vec3f normal = has_normals ? glsl::normal_at(hit.uv, ray.lod) : Vec3f{0, 0, 1};

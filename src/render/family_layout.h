@@ -12,7 +12,7 @@ struct DrawUniforms {
     glsl::MarchParams march;
     glsl::ReliefUniforms relief;
 };
-static_assert(sizeof(DrawUniforms) == 7 * 4 && offsetof(DrawUniforms, relief) == 5 * 4);
+static_assert(sizeof(DrawUniforms) == 8 * 4 && offsetof(DrawUniforms, relief) == 5 * 4);
 
 struct FamilyLayout {
     explicit FamilyLayout(const gpu::Device& device);

@@ -216,7 +216,7 @@ std::vector<GpuRenderer::Cast> GpuRenderer::cast(const GpuMaterial& material, co
                 commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline);
                 commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, layout, 0, {material.maps(), set.handle}, {});
                 commands.pushConstants<DrawUniforms>(layout, vk::ShaderStageFlagBits::eCompute, 0,
-                                                     DrawUniforms{params, {material.height_scale(), material.zero_level()}});
+                                                     DrawUniforms{params, {material.height_scale(), material.zero_level(), 0}});
                 commands.dispatch(static_cast<std::uint32_t>((part.size() + 63) / 64), 1, 1);
                 gpu::full_barrier(commands);
             });

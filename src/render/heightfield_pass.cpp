@@ -1,5 +1,7 @@
 #include "render/heightfield_pass.h"
 
+#include "techniques/shadow_bias.h"
+
 #include "gpu/pipeline.h"
 #include "render/programs.h"
 
@@ -74,7 +76,8 @@ void HeightFieldPass::record(const vk::raii::CommandBuffer& commands, const Draw
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, drawn);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_.draw_pipeline, 0,
                                 {draw.material.maps(), draw.scene.set()}, {});
-    const DrawUniforms uniforms{draw.params, {draw.material.height_scale(), draw.material.zero_level()}};
+    const DrawUniforms uniforms{draw.params, {draw.material.height_scale(), draw.material.zero_level(),
+                                             draw.technique != nullptr ? shadow_bias(*draw.technique, draw.params) : 0}};
     commands.pushConstants<DrawUniforms>(*layout_.draw_pipeline, vk::ShaderStageFlagBits::eFragment, 0, uniforms);
     commands.draw(4, 1, 0, 0);
     commands.endRendering();
