@@ -341,11 +341,25 @@ TEST_F(OnGpu, timesEveryRun) {
     MarchParams many = default_params(dear);
     many.max_steps = 300;
     const GpuRenderer::Timed timed[] = {{&cheap, default_params(cheap)}, {&dear, many}};
-    const auto times = renderer->time(stage_at(35), *material, timed, {.width = width, .height = height}, 3);
-    ASSERT_EQ(times.size(), 2u);
-    ASSERT_EQ(times[0].size(), 3u);
-    EXPECT_GT(*std::ranges::min_element(times[0]), 0);
-    EXPECT_GT(*std::ranges::min_element(times[1]), 2 * *std::ranges::min_element(times[0]));
+    const auto frames = renderer->draw_timed(stage_at(35), *material, timed, {.width = width, .height = height}, 3);
+    ASSERT_EQ(frames.size(), 2u);
+    ASSERT_EQ(frames[0].gpu_ms.size(), 3u);
+    EXPECT_GT(*std::ranges::min_element(frames[0].gpu_ms), 0);
+    EXPECT_GT(*std::ranges::min_element(frames[1].gpu_ms), 2 * *std::ranges::min_element(frames[0].gpu_ms));
+}
+
+// Timed runs double as samples; the picture must be the one that is drawn without a stopwatch, however many runs there are.
+TEST_F(OnGpu, timingLeavesThePictureAlone) {
+    const Technique& t = *find_technique("relief_mapping");
+    const PictureSettings settings{.width = width, .height = height, .offsets = {{0, 0}, {0.25f, 0.25f}, {-0.25f, 0.125f}}};
+    const Frame plain = renderer->draw(stage_at(35), *material, t, default_params(t), settings);
+    const GpuRenderer::Timed timed[] = {{&t, default_params(t)}};
+    for (const int runs : {1, 2, 7}) {
+        const auto frames = renderer->draw_timed(stage_at(35), *material, timed, settings, runs);
+        EXPECT_EQ(frames[0].gpu_ms.size(), static_cast<std::size_t>(runs));
+        EXPECT_EQ(frames[0].colour.texels, plain.colour.texels);
+        EXPECT_EQ(frames[0].hit_uv.texels, plain.hit_uv.texels);
+    }
 }
 
 TEST_F(OnGpu, refusesPicturesOfNoSize) {
