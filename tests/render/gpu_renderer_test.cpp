@@ -183,7 +183,8 @@ TEST_F(OnGpu, colourIsTheFormula) {
                     continue;
                 }
                 const Vec3f v{rays.view(x, y, 0), rays.view(x, y, 1), rays.view(x, y, 2)};
-                const Vec3f position{rays.uv(x, y, 0) - 1, rays.uv(x, y, 1) - 1, 0};
+                const float centre = stage.base.periods / 2;
+                const Vec3f position{rays.uv(x, y, 0) - centre, rays.uv(x, y, 1) - centre, 0};
                 Vec3f expected = stage.lighting.ambient;
                 for (const Light& light : stage.lighting.lights) {
                     const Vec3f way = light.position - position;
