@@ -17,6 +17,8 @@ namespace {
 struct Named {
     const char* id;
     SurfaceFunction (*surface)(const Detail&);
+
+    friend void PrintTo(const Named& named, std::ostream* out) { *out << named.id; }
 };
 
 class EachSurface : public testing::TestWithParam<Named> {};

@@ -13,6 +13,10 @@ namespace {
 
 class EachMaterial : public testing::TestWithParam<ProceduralMaterial> {};
 
+}  // namespace
+void PrintTo(const ProceduralMaterial& material, std::ostream* out) { *out << material.id; }
+namespace {
+
 TEST_P(EachMaterial, is_the_same_for_any_number_of_threads_and_another_for_another_seed) {
     const Material one = procedural_material(GetParam().id, 64, 7, 1);
     const Material two = procedural_material(GetParam().id, 64, 7, 2);

@@ -43,7 +43,8 @@ vec3 surface_colour(SurfaceRay ray, SurfaceHit hit) {
         LightUniforms light = light_at(i);
         float arrives = i == 0 ? visible : 1.0f;
         if (light.directional == 0)
-            arrives *= attenuation(light.constant, light.linear, light.quadratic, length(vec3(light.x, light.y, light.z) - position));
+            arrives *= attenuation(light.constant, light.linear, light.quadratic,
+                                   length(vec3(light.x, light.y, light.z) - position));
         result += arrives * vec3(light.r, light.g, light.b) *
                   phong(albedo, scene.specular, scene.shininess, normal, ray.view, to_light(light, position));
     }
