@@ -35,8 +35,8 @@ constexpr double measured_elevation_deg = 25;
 
 // The figures' own: large enough to see a texel's error.
 constexpr int figure_texels = 512;
-constexpr int panel_width = 480;
-constexpr int panel_height = 300;
+constexpr int panel_width = 400;
+constexpr int panel_height = 240;
 constexpr double figure_elevation_deg = 20;
 
 std::string number(double value, int digits = 2) {

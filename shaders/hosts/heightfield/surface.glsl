@@ -29,7 +29,7 @@ vec3 to_light(LightUniforms light, vec3 position) {
 float key_visibility(SurfaceRay ray, SurfaceHit hit) {
     float visible = 1.0f;
     if (casts_shadow && light_count > 0)
-        visible = self_shadow(ray, hit, to_light(first_lights[0], surface_position(ray, hit)), march);
+        visible = self_shadow(ray, hit, to_light(first_lights[0], surface_position(ray, hit)), relief.shadow_bias, march);
     return visible;
 }
 

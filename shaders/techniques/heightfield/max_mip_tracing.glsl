@@ -128,7 +128,7 @@ SurfaceHit max_mip_tracing(SurfaceRay ray, MarchParams params) {
     // Every field is at least 0, so a view ray that reaches the floor (or runs out of steps) has met it.
     if (!hit.found && ray.z_end <= 0.0f) {
         hit.found = true;
-        hit.height = inside ? ray.z_start - descent : ray.z_end;
+        hit.height = inside ? max(ray.z_start - descent, ray.z_end) : ray.z_end;
     }
     hit.uv = uv_at(ray, hit.height);
     return hit;
