@@ -41,7 +41,7 @@ void add_render_command(CLI::App& app) {
     verb->callback([o] {
         RenderSettings& s = o->settings;
         if (o->technique != "reference") {
-            s.technique = &parse_technique(o->technique);
+            s.technique = &parse_technique(o->technique, {"reference"});
             s.params = parse_knobs(*s.technique, o->set);
         } else if (!o->set.empty()) {
             throw UsageError("the reference is exact and has no knobs, so --set does nothing");

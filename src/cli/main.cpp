@@ -6,7 +6,10 @@
 #include "core/version.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <string>
 #include <vector>
@@ -31,6 +34,28 @@ std::string joined(int argc, char** argv) {
     return text;
 }
 
+// The first word of a command line that did not parse which is no command, or no option of its command, with a suggestion; empty
+// when the mistake is another one.
+std::string misspelt_word(CLI::App& app, int argc, char** argv) {
+    const std::string first = argv[1];
+    const CLI::App* verb = &app;
+    if (first[0] != '-') {
+        std::vector<std::string> verbs;
+        for (const CLI::App* v : app.get_subcommands({})) verbs.push_back(v->get_name());
+        if (std::ranges::find(verbs, first) == verbs.end()) return relievo::unknown_word("command", first, verbs);
+        verb = app.get_subcommand(first);
+    }
+    std::vector<std::string> known;
+    for (const CLI::Option* option : verb->get_options())
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+        if (word.starts_with("--") && word != "--" && std::ranges::find(known, word) == known.end())
+            return relievo::unknown_word("option", word, known);
+    }
+    return {};
+}
+
 int run(int argc, char** argv) {
     CLI::App app{"relievo compares the techniques that make a flat polygon look carved against exact ground truth."};
     app.name("relievo");
@@ -53,13 +78,8 @@ int run(int argc, char** argv) {
     } catch (const CLI::Success& e) {  // --help, --version
         return app.exit(e);
     } catch (const CLI::ParseError& e) {
-        std::string hint;
-        if (argc > 1 && argv[1][0] != '-') {
-            std::vector<std::string> verbs;
-            for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
-            if (std::find(verbs.begin(), verbs.end(), argv[1]) == verbs.end()) hint = relievo::unknown_word("command", argv[1], verbs);
-        }
-        std::fprintf(stderr, "relievo: %s\nSee relievo --help, or relievo COMMAND --help.\n", hint.empty() ? e.what() : hint.c_str());
+        const std::string slip = misspelt_word(app, argc, argv);
+        std::fprintf(stderr, "relievo: %s\nSee relievo --help, or relievo COMMAND --help.\n", slip.empty() ? e.what() : slip.c_str());
         return 2;
     }
     return 0;
@@ -70,7 +90,13 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     relievo::catch_interrupts();
     try {
-        return run(argc, argv);
+        const int code = run(argc, argv);
+        // A full disk or a closed pipe must not pass for success.
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+            std::fprintf(stderr, "relievo: cannot write to standard output: %s\n", std::strerror(errno));
+            return 1;
+        }
+        return code;
     } catch (const relievo::UsageError& e) {
         std::fprintf(stderr, "relievo: %s\n", e.what());
         return 2;

@@ -4,6 +4,7 @@
 #include "core/suggest.h"
 #include "techniques/catalogue.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -58,21 +59,28 @@ std::vector<View> parse_views(const std::vector<std::string>& texts) {
     std::vector<View> result;
     for (const std::string& text : split(texts)) {
         const auto view = parse_view(text);
-        if (!view) throw UsageError(unknown_word("view", text, ids(views())) + " Or degrees above the plane, from 1 to 90.");
-        result.push_back(*view);
+        if (!view) throw UsageError(unknown_word("view", text, ids(views())) + "\n  Degrees above the plane do too, from 1 to 90.");
+        if (std::ranges::find(result, view->id, &View::id) == result.end()) result.push_back(*view);
     }
+    if (result.empty() && !texts.empty()) throw UsageError("--view names no view");
     return result;
 }
 
-const Technique& parse_technique(const std::string& id) {
+const Technique& parse_technique(const std::string& id, const std::vector<std::string>& also) {
     const Technique* technique = find_technique(id);
-    if (technique == nullptr) throw UsageError(unknown_word("technique", id, ids(techniques())));
-    return *technique;
+    if (technique != nullptr) return *technique;
+    std::vector<std::string> known = ids(techniques());
+    known.insert(known.end(), also.begin(), also.end());
+    throw UsageError(unknown_word("technique", id, known));
 }
 
 std::vector<const Technique*> parse_techniques(const std::vector<std::string>& texts) {
     std::vector<const Technique*> result;
-    for (const std::string& id : split(texts)) result.push_back(&parse_technique(id));
+    for (const std::string& id : split(texts)) {
+        const Technique* technique = &parse_technique(id);
+        if (std::ranges::find(result, technique) == result.end()) result.push_back(technique);
+    }
+    if (result.empty() && !texts.empty()) throw UsageError("--technique names no technique");
     return result;
 }
 

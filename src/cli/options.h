@@ -15,9 +15,10 @@ struct Size {
 };
 
 Size parse_size(const std::string& text);                                        // "640x360", each side 1 to 16384
-std::vector<View> parse_views(const std::vector<std::string>& texts);            // names or degrees, commas allowed
-std::vector<const Technique*> parse_techniques(const std::vector<std::string>& texts);  // ids, commas allowed
-const Technique& parse_technique(const std::string& id);
+std::vector<View> parse_views(const std::vector<std::string>& texts);            // names or degrees, commas allowed, each once
+std::vector<const Technique*> parse_techniques(const std::vector<std::string>& texts);  // ids, commas allowed, each once
+// `also`: other words that the option takes, for the suggestion.
+const Technique& parse_technique(const std::string& id, const std::vector<std::string>& also = {});
 // "knob=value" settings over the technique's defaults; an undeclared knob or a value out of range is an error that says the range.
 MarchParams parse_knobs(const Technique& technique, const std::vector<std::string>& settings);
 

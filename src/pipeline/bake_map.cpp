@@ -81,11 +81,12 @@ BakedMap bake_map(const BakeSettings& settings, const Progress& progress) {
     const std::filesystem::path out = settings.out;
     const bool exr = out.extension() == ".exr";
     if (!exr && out.extension() != ".png") throw UsageError("--out " + settings.out + ": a map is written as .png or .exr");
+    if (exr && settings.map == Map::colour) throw UsageError("--out " + settings.out + ": the colour map is 8-bit sRGB and is written as .png");
     const AtomicFile probe(out);  // an unwritable target is known before the work
 
     report(progress, "loading", 0);
     Material material = load_source(settings.material);
-    report(progress, "baking", 0);
+    report(progress, "baking", 0);  // hears an interruption of the loading
     const auto began = std::chrono::steady_clock::now();
     const Map wanted[] = {settings.map};
     const BakedMaps baked = bake_maps(std::move(material), wanted,
@@ -102,7 +103,6 @@ BakedMap bake_map(const BakeSettings& settings, const Progress& progress) {
         const Image8& colour = baked.maps.colour.front();
         result.width = colour.width;
         result.height = colour.height;
-        if (exr) throw UsageError("--out " + settings.out + ": the colour map is 8-bit sRGB and is written as .png");
         write_png(out, colour, FirstRow::bottom);
     } else {
         const Sheet sheet = sheet_of(settings.map, baked.maps);

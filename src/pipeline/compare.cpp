@@ -16,12 +16,14 @@
 #include "techniques/catalogue.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <functional>
 #include <set>
+#include <unistd.h>
 
 namespace relievo {
 
@@ -88,14 +90,92 @@ TimeSpread spread(std::vector<double> ms) {
     return {ms.front(), median, ms.back(), static_cast<int>(n)};
 }
 
-// Counts finished units of work, so that the progress is one line over the whole comparison.
-struct Counter {
-    const Progress& progress;
-    std::string stage;
-    int total;
-    int done = 0;
-    void step() { report(progress, stage, static_cast<double>(++done) / total); }
-    void stay() const { report(progress, stage, static_cast<double>(done) / total); }
+// One line of progress over the whole comparison. Every long step reports into its part of it, so that an interruption is heard
+// within a moment wherever it comes.
+class Line {
+public:
+    Line(const Progress& progress, std::string stage, double total) : progress_(progress), stage_(std::move(stage)), total_(total) {}
+
+    // The Progress of a step worth `units` of the total, which begins where the one before it ended.
+    Progress step(double units) {
+        begin_ = end_;
+        end_ = begin_ + units;
+        return [this, begin = begin_, units](std::string_view, double share) { show(begin + units * share); };
+    }
+
+private:
+    // Steps with several passes begin again at 0; the line never goes back.
+    void show(double done) {
+        shown_ = std::max(shown_, std::min(done / total_, 1.0));
+        report(progress_, stage_, shown_);
+    }
+
+    const Progress& progress_;
+    std::string stage_;
+    double total_;
+    double begin_ = 0;
+    double end_ = 0;
+    double shown_ = 0;
+};
+
+// What the steps of a comparison cost beside each other, roughly: seconds of twelve techniques on one view at 512 x 288. Only the
+// time left that the progress shows depends on it.
+constexpr double baking_units = 1;
+constexpr double reference_units = 1;
+constexpr double drawing_units = 3;
+constexpr double measuring_units = 1;
+constexpr double writing_units = 0.5;
+constexpr double view_units = reference_units + drawing_units + measuring_units + writing_units;
+
+// Pictures under way. They move to their places together at the end, so that an interrupted run leaves an older report whole.
+class PictureFolder {
+public:
+    explicit PictureFolder(const fs::path& out) : target_(out), staging_(out / (".relievo-" + std::to_string(::getpid()) + "-pictures.tmp")) {
+        std::error_code ignored;
+        made_target_ = !fs::exists(out, ignored);
+        make_folder(out);
+        // Tried at the beginning: an unwritable place is known before the work.
+        for (const char* file : {"results.json", "results.csv", "index.html"}) const AtomicFile probe(out / file);
+        made_pictures_ = !fs::exists(out / "pictures", ignored);
+        make_folder(out / "pictures");
+        make_folder(staging_);
+    }
+    ~PictureFolder() {
+        std::error_code ignored;
+        fs::remove_all(staging_, ignored);
+        // Nothing was published: no empty folders either. remove() takes only those.
+        if (made_pictures_) fs::remove(target_ / "pictures", ignored);
+        if (made_target_) fs::remove(target_, ignored);
+    }
+    PictureFolder(const PictureFolder&) = delete;
+    PictureFolder& operator=(const PictureFolder&) = delete;
+
+    const fs::path& staging() const { return staging_; }
+
+    void publish() const {
+        for (const auto& entry : fs::recursive_directory_iterator(staging_)) {
+            const fs::path place = target_ / fs::relative(entry.path(), staging_);
+            if (entry.is_directory()) {
+                make_folder(place);
+                continue;
+            }
+            std::error_code error;
+            fs::rename(entry.path(), place, error);
+            if (error) throw Error("write", place.string(), error.message());
+        }
+    }
+
+    static void make_folder(const fs::path& folder) {
+        std::error_code error;
+        fs::create_directories(folder, error);
+        if (!fs::is_directory(folder, error)) throw Error("make folder", folder.string(), error ? error.message() : "a file of that name is in the way");
+    }
+
+private:
+    fs::path target_;
+    fs::path staging_;
+    bool made_target_ = false;
+    bool made_pictures_ = false;
 };
 
 class Comparison {
@@ -114,10 +194,9 @@ public:
 
     Results run() {
         const auto began = std::chrono::steady_clock::now();
+        for (const MaterialSource& source : settings_.materials) check_source(source);  // the last one's slip is known before the first one's work
         const fs::path out = settings_.out;
-        make_folder(out);
-        // Held from the beginning: an unwritable folder is known before the work, and an interrupted run leaves no results.
-        const AtomicFile json(out / "results.json");
+        const PictureFolder pictures(out);
 
         Results results;
         results.manifest = {.command = settings_.command,
@@ -138,34 +217,42 @@ public:
         results.fetches_legend = fetches_legend();
         for (const MapKind& m : map_kinds()) results.maps.push_back({m.map, std::string(m.id), std::string(m.title), std::string(m.summary)});
 
-        const auto units = settings_.materials.size() * (1 + views_.size() * techniques_.size());
-        Counter counter{progress_, "comparing " + std::to_string(techniques_.size()) + " techniques on " +
-                                       std::to_string(settings_.materials.size()) + " materials", static_cast<int>(units)};
-        for (const MaterialSource& source : settings_.materials) compare_material(source, out, results, counter);
+        const auto count = [](std::size_t n, const char* word) { return std::to_string(n) + " " + word + (n == 1 ? "" : "s"); };
+        Line line(progress_, "comparing " + count(techniques_.size(), "technique") + " on " + count(settings_.materials.size(), "material"),
+                  static_cast<double>(settings_.materials.size()) * (baking_units + static_cast<double>(views_.size()) * view_units));
+        for (const MaterialSource& source : settings_.materials) compare_material(source, pictures.staging(), results, line);
 
         results.manifest.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-        write_file_atomically(out / "results.csv", results_csv(results));
-        write_file_atomically(out / "index.html", page_html(results));
-        write_file_atomically(json.target(), results_json(results));
+        const std::string csv = results_csv(results);
+        const std::string page = page_html(results);
+        const std::string json = results_json(results);
+        pictures.publish();
+        write_file_atomically(out / "results.csv", csv);
+        write_file_atomically(out / "index.html", page);
+        write_file_atomically(out / "results.json", json);
         if (const auto messages = gpu_.validation_messages(); !messages.empty())
             throw Error("trust", "the Vulkan calls of this run", "the validation layers said: " + messages.front());
         return results;
     }
 
 private:
-    static void make_folder(const fs::path& folder) {
-        std::error_code error;
-        fs::create_directories(folder, error);
-        if (!fs::is_directory(folder)) throw Error("make folder", folder.string(), error ? error.message() : "a file of that name is in the way");
+    // `wanted`, or with a number where it is taken: two folders may have one name, and two names one folder.
+    static std::string unique(const std::string& wanted, std::set<std::string>& taken) {
+        std::string name = wanted;
+        for (int copy = 2; !taken.insert(name).second; ++copy) name = wanted + "-" + std::to_string(copy);
+        return name;
     }
 
-    void compare_material(const MaterialSource& source, const fs::path& out, Results& results, Counter& counter) {
-        counter.stay();
+    void compare_material(const MaterialSource& source, const fs::path& out, Results& results, Line& line) {
+        const Progress baking = line.step(baking_units);
+        report(baking, "loading", 0);
         Material material = load_source(source);
-        std::string name = folder_name(material.name);
-        for (int copy = 2; !names_.insert(name).second; ++copy) name = folder_name(material.name) + "-" + std::to_string(copy);
+        report(baking, "loading", 0);
+        const std::string name = unique(material.name, names_);
+        const std::string folder = unique(folder_name(material.name), folders_);
 
-        BakedMaps baked = bake_maps(std::move(material), maps_of(techniques_), {.threads = settings_.threads, .use_cache = settings_.use_cache});
+        BakedMaps baked = bake_maps(std::move(material), maps_of(techniques_),
+                                    {.threads = settings_.threads, .use_cache = settings_.use_cache, .progress = baking});
         results.manifest.materials.push_back({.name = name,
                                               .width = baked.maps.height.width(),
                                               .height = baked.maps.height.height(),
@@ -175,13 +262,18 @@ private:
                                               .notes = baked.notes,
                                               .input_hash = baked.input_hash});
         const auto uploaded = gpu_.upload(baked.maps, baked.height_scale, baked.zero_level);
-        counter.step();
-        make_folder(out / "pictures" / name);
-        for (const View& view : views_) compare_view(view, name, baked, *uploaded, out, results, counter);
+        report(baking, "uploading", 1);
+        PictureFolder::make_folder(out / "pictures" / folder);
+        for (const View& view : views_) compare_view(view, {name, folder}, baked, *uploaded, out, results, line);
     }
 
-    void compare_view(const View& view, const std::string& name, const BakedMaps& baked, const GpuMaterial& material, const fs::path& out,
-                      Results& results, Counter& counter) {
+    struct Place {
+        std::string name;    // the material's, as people know it
+        std::string folder;  // of its pictures
+    };
+
+    void compare_view(const View& view, const Place& place, const BakedMaps& baked, const GpuMaterial& material, const fs::path& out,
+                      Results& results, Line& line) {
         const Stage stage = stage_for(view);
         std::vector<RayField> rays;
         for (const Vec2f offset : picture_.offsets) rays.push_back(gpu_.rays(stage, material, settings_.width, settings_.height, offset));
@@ -190,8 +282,9 @@ private:
                                              .zero_level = baked.zero_level,
                                              .shadow = settings_.shadow == ShadowMode::hard,
                                              .uv_at_origin = Vec2d{stage.base.periods / 2.0, stage.base.periods / 2.0},
-                                             .threads = settings_.threads});
-        const std::string prefix = "pictures/" + name + "/" + folder_name(view.id) + "-";
+                                             .threads = settings_.threads},
+                                            line.step(reference_units));
+        const std::string prefix = "pictures/" + place.folder + "/" + folder_name(view.id) + "-";
         const std::string reference_path = prefix + "reference.png";
 
         const std::string reference_pixels = prefix + "reference-pixels.js";
@@ -206,17 +299,19 @@ private:
 
         std::vector<GpuRenderer::Timed> timed;
         for (const Contestant& c : contestants) timed.push_back({c.technique, c.params});
-        std::vector<Frame> frames = gpu_.draw_timed(stage, material, timed, picture_, settings_.runs);
+        std::vector<Frame> frames = gpu_.draw_timed(stage, material, timed, picture_, settings_.runs, line.step(drawing_units));
 
         // Pictures are encoded together at the end, on all cores.
         std::vector<std::function<void()>> writes;
         writes.push_back([&] { write_frame_png(out / reference_path, truth.colour); });
         writes.push_back([&] { write_file_atomically(out / reference_pixels, reference_pixel_script(truth)); });
+        const Progress measuring = line.step(measuring_units);
         for (std::size_t i = 0; i < contestants.size(); ++i) {
+            report(measuring, "measuring", static_cast<double>(i) / static_cast<double>(contestants.size()));
             const Contestant& c = contestants[i];
             const Frame* frame = &frames[i];
             Row row{.technique = std::string(c.technique->id),
-                    .material = name,
+                    .material = place.name,
                     .view = view.id,
                     .elevation_deg = view.elevation_deg,
                     .knobs = knob_values(*c.technique, c.params),
@@ -241,16 +336,15 @@ private:
                 });
                 writes.push_back([frame, file = out / row.fetches_image] { write_png(file, fetches_picture(*frame, 1), FirstRow::top); });
                 results.rows.push_back(std::move(row));
-                counter.step();
             } else {
                 row.no_picture = "a point of the budget sweep, measured but not kept as a picture";
                 results.sweep.push_back(std::move(row));
-                counter.stay();
             }
         }
-        parallel_for(static_cast<int>(writes.size()), 1, settings_.threads, [&](int begin, int end) {
+        const auto write = [&](int begin, int end) {
             for (int i = begin; i < end; ++i) writes[static_cast<std::size_t>(i)]();
-        });
+        };
+        parallel_for(static_cast<int>(writes.size()), 1, settings_.threads, write, line.step(writing_units), "writing");
     }
 
     const CompareSettings& settings_;
@@ -260,6 +354,7 @@ private:
     GpuRenderer gpu_;
     PictureSettings picture_;
     std::set<std::string> names_;
+    std::set<std::string> folders_;
 };
 
 }  // namespace

@@ -20,15 +20,21 @@ Material make_procedural(const Scene& scene, const MaterialSource& source) {
     return material;
 }
 
-}  // namespace
+// What a source names: one of our scenes, or files.
+struct Found {
+    const Scene* scene = nullptr;
+    MaterialFiles files = {};
+    std::vector<std::string> notes = {};
+};
 
-Material load_source(const MaterialSource& source) {
+Found find_source(const MaterialSource& source) {
     const bool named_files = !source.colour.empty() || !source.height.empty() || !source.normal.empty();
     if (source.folder.empty() && !named_files) throw UsageError("no material named: --material FOLDER, or --height FILE, or the id of a procedural one");
 
+    Found found;
     std::error_code ignored;
     if (!source.folder.empty() && !fs::exists(source.folder, ignored)) {
-        if (const Scene* scene = find_scene(source.folder); scene != nullptr && !named_files) return make_procedural(*scene, source);
+        if (const Scene* scene = find_scene(source.folder); scene != nullptr && !named_files) return {.scene = scene};
         std::vector<std::string> ids;
         for (const Scene& s : scenes()) ids.emplace_back(s.id);
         const std::string near = nearest_word(source.folder, ids);
@@ -36,15 +42,22 @@ Material load_source(const MaterialSource& source) {
                     near.empty() ? "Give a folder of maps, or a procedural material (relievo list scenes)."
                                  : "Did you mean the procedural material '" + near + "'?");
     }
+    if (!source.folder.empty()) found.files = find_material_files(source.folder, found.notes);
+    if (!source.colour.empty()) found.files.colour = source.colour;
+    if (!source.height.empty()) found.files.height = source.height;
+    if (!source.normal.empty()) found.files.normal = source.normal;
+    return found;
+}
 
-    std::vector<std::string> notes;
-    MaterialFiles files;
-    if (!source.folder.empty()) files = find_material_files(source.folder, notes);
-    if (!source.colour.empty()) files.colour = source.colour;
-    if (!source.height.empty()) files.height = source.height;
-    if (!source.normal.empty()) files.normal = source.normal;
-    Material material = load_material(files);
-    material.notes.insert(material.notes.begin(), notes.begin(), notes.end());
+}  // namespace
+
+void check_source(const MaterialSource& source) { find_source(source); }
+
+Material load_source(const MaterialSource& source) {
+    const Found found = find_source(source);
+    if (found.scene != nullptr) return make_procedural(*found.scene, source);
+    Material material = load_material(found.files);
+    material.notes.insert(material.notes.begin(), found.notes.begin(), found.notes.end());
     return material;
 }
 

@@ -15,6 +15,9 @@ struct MaterialSource {
     int threads = 0;
 };
 
+// Finds the material without reading a picture, and throws what load_source would if it is not there.
+void check_source(const MaterialSource& source);
+
 // Throws Error when nothing usable is there; what was assumed stands in the material's notes.
 Material load_source(const MaterialSource& source);
 

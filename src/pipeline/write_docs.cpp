@@ -278,10 +278,12 @@ private:
 
 void write_docs(const DocsSettings& settings, const Progress& progress) {
     const fs::path out = settings.out;
-    std::error_code failed;
-    fs::create_directories(out / "techniques", failed);
-    if (settings.figures) fs::create_directories(out / "figures", failed);
-    if (failed) throw Error("make folder", out.string(), failed.message());
+    for (const char* part : {"techniques", "figures"}) {
+        if (!settings.figures && std::string_view(part) == "figures") continue;
+        std::error_code failed;
+        fs::create_directories(out / part, failed);
+        if (failed) throw Error("make folder", (out / part).string(), failed.message());
+    }
 
     std::vector<Ground> grounds;
     const std::string stage = "writing the documentation";

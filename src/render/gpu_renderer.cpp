@@ -136,7 +136,7 @@ Frame GpuRenderer::draw(const Stage& stage, const GpuMaterial& material, const T
 }
 
 std::vector<Frame> GpuRenderer::draw_timed(const Stage& stage, const GpuMaterial& material, std::span<const Timed> timed,
-                                           const PictureSettings& settings, int runs) {
+                                           const PictureSettings& settings, int runs, const Progress& progress) {
     return gpu::vulkan_errors_as("draw", "pictures on " + device_name(), [&] {
         State& s = *state_;
         const int width = settings.width;
@@ -152,25 +152,31 @@ std::vector<Frame> GpuRenderer::draw_timed(const Stage& stage, const GpuMaterial
                                          .background = stage.lighting.background};
         };
 
+        const int samples = static_cast<int>(settings.offsets.size());
+        const int rounds = std::max(runs + 1, samples);
+        const double draws = static_cast<double>(timed.size()) * (1 + rounds);
+        double drawn = 0;
+
         std::vector<Frame> frames;
         s.scene.update(stage, width, height, {0, 0});
         for (const Timed& t : timed) {
             frames.push_back(frame_of(s.draw(draw_of(record_host, t), width, height), width, height));
             frames.back().source = "gpu: " + device_name();
+            report(progress, "drawing", ++drawn / draws);
         }
 
         // The timed runs are the picture's samples too, as far as there are that many: a sample shifts by less than a pixel and
         // costs the same. Round 0 is not timed; it makes pipelines and warms caches.
         const gpu::Stopwatch stopwatch(s.device);
-        const int samples = static_cast<int>(settings.offsets.size());
         const float share = 1.0f / static_cast<float>(samples);
-        for (int round = 0; round < std::max(runs + 1, samples); ++round) {
+        for (int round = 0; round < rounds; ++round) {
             const bool is_sample = round < samples;
             s.scene.update(stage, width, height, settings.offsets[static_cast<std::size_t>(is_sample ? round : 0)]);
             for (std::size_t t = 0; t < timed.size(); ++t) {
                 double ms = 0;
                 const auto planes = s.draw(draw_of(shade_host, timed[t]), width, height, is_sample, &stopwatch, &ms);
                 if (round > 0 && round <= runs) frames[t].gpu_ms.push_back(ms);
+                report(progress, "drawing", ++drawn / draws);
                 if (!is_sample) continue;
                 std::vector<float>& colour = frames[t].colour.texels;
                 const float* sample = planes[0];

@@ -3,6 +3,7 @@
 
 #include "core/frame.h"
 #include "core/map_set.h"
+#include "core/progress.h"
 #include "scenes/scene.h"
 #include "techniques/technique.h"
 
@@ -58,13 +59,14 @@ public:
                const PictureSettings& settings);
 
     // The same for several techniques, with Frame::gpu_ms: milliseconds of the colour pass (one sample per pixel, nothing else
-    // written), runs x techniques, interleaved A B C ... A B C ..., after one unmeasured round.
+    // written), runs x techniques, interleaved A B C ... A B C ..., after one unmeasured round. `progress` is called between draws,
+    // outside of what is timed.
     struct Timed {
         const Technique* technique;
         MarchParams params;
     };
     std::vector<Frame> draw_timed(const Stage& stage, const GpuMaterial& material, std::span<const Timed> timed,
-                                  const PictureSettings& settings, int runs);
+                                  const PictureSettings& settings, int runs, const Progress& progress = {});
 
     // The search alone on explicit rays, in a compute shader: hits and fetch counts in the order of the rays.
     struct Cast {

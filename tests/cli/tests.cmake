@@ -1,0 +1,2 @@
+# These tests run the program itself.
+add_dependencies(test_cli relievo)
