@@ -36,7 +36,8 @@ std::string input_hash(const Material& m, const Digest& heights, int threads) {
     if (!m.height.empty()) add("height", m.height.texels, heights);
     if (m.normal) add("normal", *m.normal, digest_of(*m.normal, threads));
     if (m.colour) add("colour", *m.colour, digest_of(*m.colour, threads));
-    return hex(std::span(sha256(std::as_bytes(std::span(text)))).first(16));
+    const Digest digest = sha256(std::as_bytes(std::span(text)));
+    return hex(std::span(digest).first(16));
 }
 
 void check(const Material& m) {
