@@ -53,7 +53,8 @@ endfunction()
 # One host's SPIR-V, checked by spirv-val and written as words for an #include; everything it includes is tracked.
 function(relievo_gpu_program source out)
   add_custom_command(OUTPUT ${out}.inc
-    COMMAND ${GLSLC} --target-env=vulkan1.3 -O -Werror -I ${PROJECT_SOURCE_DIR}/shaders -MD -MF ${out}.d -MT ${out}.inc -o ${out}.spv ${source}
+    COMMAND ${GLSLC} --target-env=vulkan1.3 -O -Werror -I ${PROJECT_SOURCE_DIR}/shaders -MD -MF ${out}.d -MT ${out}.inc
+            -o ${out}.spv ${source}
     COMMAND ${SPIRV_VAL} --target-env vulkan1.3 ${out}.spv
     COMMAND ${CMAKE_COMMAND} -DIN=${out}.spv -DOUT=${out}.inc -P ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake
     DEPENDS ${source} ${PROJECT_SOURCE_DIR}/cmake/embed_spirv.cmake

@@ -37,6 +37,7 @@ struct LightUniforms {
 struct ReliefUniforms {
     float height_scale;
     float zero_level;
+    float shadow_bias;  // gap under a light ray's end, in heights (techniques/shadow_bias.h)
 };
 
 #endif

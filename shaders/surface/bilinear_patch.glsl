@@ -19,12 +19,15 @@ float patch_descent(vec4 corners, vec2 entry, float z, vec2 speed, float limit) 
         float qb = b * speed.x + c * speed.y + d * (entry.x * speed.y + entry.y * speed.x) + 1.0f;
         float discriminant = qb * qb - 4.0f * qa * gap;
         if (discriminant >= 0.0f) {
-            float q = -0.5f * (qb + (qb >= 0.0f ? sqrt(discriminant) : -sqrt(discriminant)));
-            float first = qa != 0.0f ? q / qa : -1.0f;
-            float second = q != 0.0f ? gap / q : -1.0f;
-            float low = min(first, second);
-            float high = max(first, second);
-            float root = low >= 0.0f ? low : high;
+            // With the gap below 0 one candidate is left of the two roots: closing from the start, the nearer; opening at first,
+            // it closes only where the profile bends upward.
+            float root = -1.0f;
+            if (qb >= 0.0f) {
+                float q = -0.5f * (qb + sqrt(discriminant));
+                if (q < 0.0f) root = gap / q;
+            } else if (qa > 0.0f) {
+                root = 0.5f * (sqrt(discriminant) - qb) / qa;
+            }
             if (root >= 0.0f && root <= limit) result = root;
         }
     }

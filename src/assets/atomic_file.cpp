@@ -18,13 +18,17 @@ namespace {
 
 std::string advice_for(int error) {
     switch (error) {
-        case ENOENT: return "create the folder first, or choose another place";
+        case ENOENT:
+            return "create the folder first, or choose another place";
         case EACCES:
         case EPERM:
-        case EROFS: return "choose a folder you may write to";
+        case EROFS:
+            return "choose a folder you may write to";
         case ENOSPC:
-        case EDQUOT: return "free some space, or choose another disk";
-        default: return {};
+        case EDQUOT:
+            return "free some space, or choose another disk";
+        default:
+            return {};
     }
 }
 

@@ -35,8 +35,11 @@ std::string png_damage(std::ifstream& in, std::uintmax_t size) {
     while (at + 12 <= size) {
         unsigned char head[8];
         if (!in.read(reinterpret_cast<char*>(head), sizeof head)) return truncated;
-        if (!std::all_of(head + 4, head + 8, [](unsigned char c) { return c < 128 && std::isalpha(c); })) return "the file is damaged: a PNG chunk has no name";
-        const auto word = [](const unsigned char* b) { return std::uint32_t{b[0]} << 24 | std::uint32_t{b[1]} << 16 | std::uint32_t{b[2]} << 8 | b[3]; };
+        if (!std::all_of(head + 4, head + 8, [](unsigned char c) { return c < 128 && std::isalpha(c); }))
+            return "the file is damaged: a PNG chunk has no name";
+        const auto word = [](const unsigned char* b) {
+            return std::uint32_t{b[0]} << 24 | std::uint32_t{b[1]} << 16 | std::uint32_t{b[2]} << 8 | b[3];
+        };
         const std::uintmax_t length = word(head);
         if (at + 12 + length > size) return truncated;
         std::uint32_t crc = 0xffffffffu;
@@ -84,22 +87,27 @@ std::string dds_damage(std::ifstream& in, std::uintmax_t size) {
     in.read(reinterpret_cast<char*>(head), sizeof head);
     if (size < 128) return truncated;
     const auto word = [&](int at) {
-        return std::uint32_t{head[at]} | std::uint32_t{head[at + 1]} << 8 | std::uint32_t{head[at + 2]} << 16 | std::uint32_t{head[at + 3]} << 24;
+        return std::uint32_t{head[at]} | std::uint32_t{head[at + 1]} << 8 | std::uint32_t{head[at + 2]} << 16 |
+               std::uint32_t{head[at + 3]} << 24;
     };
     const std::uintmax_t height = word(12), width = word(16);
     const std::string_view four_cc(reinterpret_cast<const char*>(head + 84), 4);
     std::uintmax_t header = 128;
     std::uintmax_t block_bytes = 0;  // of 4 x 4 texels
-    if ((word(80) & 4u) == 0 && (word(80) & (0x40u | 0x20000u | 0x2u)) != 0) {  // plain texels: RGB, luminance or alpha
+    if ((word(80) & 4u) == 0 && (word(80) & (0x40u | 0x20000u | 0x2u)) != 0) {
+        // Plain texels: RGB, luminance or alpha.
         const std::uint32_t bits = word(88);
         if (bits <= 32 && bits % 8 == 0) block_bytes = bits * 2;
     } else if ((word(80) & 4u) == 0) {
         return {};  // no four-character code either: the decoder refuses it
     } else if (four_cc == "DX10") {
         header = 148;
-        const std::uint32_t format = word(128);  // DXGI_FORMAT: BC1 70-72, BC2 73-75, BC3 76-78, BC4 79-81, BC5 82-84, BC6H and BC7 94-99
-        if ((format >= 70 && format <= 72) || (format >= 79 && format <= 81)) block_bytes = 8;
-        else if ((format >= 73 && format <= 84) || (format >= 94 && format <= 99)) block_bytes = 16;
+        // DXGI_FORMAT: BC1 70-72, BC2 73-75, BC3 76-78, BC4 79-81, BC5 82-84, BC6H and BC7 94-99
+        const std::uint32_t format = word(128);
+        if ((format >= 70 && format <= 72) || (format >= 79 && format <= 81))
+            block_bytes = 8;
+        else if ((format >= 73 && format <= 84) || (format >= 94 && format <= 99))
+            block_bytes = 16;
     } else if (four_cc == "DXT1" || four_cc == "BC4U" || four_cc == "BC4S" || four_cc == "ATI1") {
         block_bytes = 8;
     } else if (four_cc.substr(0, 3) == "DXT" || four_cc == "BC5U" || four_cc == "BC5S" || four_cc == "ATI2" || four_cc == "RXGB") {
@@ -151,7 +159,10 @@ std::string tiff_damage(std::ifstream& in, std::uintmax_t size) {
         array.bytes = type == 3 ? 2 : type == 4 ? 4 : type == 16 ? 8 : 0;  // SHORT, LONG, LONG8
         array.count = number(entry + 4, word);
         const std::uintmax_t value = entry + 4 + static_cast<std::uintmax_t>(word);
-        array.at = array.count <= size && array.count * static_cast<std::uintmax_t>(array.bytes) <= static_cast<std::uintmax_t>(word) ? value : number(value, word);
+        array.at =
+            array.count <= size && array.count * static_cast<std::uintmax_t>(array.bytes) <= static_cast<std::uintmax_t>(word)
+                ? value
+                : number(value, word);
     }
     if (cut) return truncated;
     if (offsets.bytes == 0 || lengths.bytes == 0 || offsets.count != lengths.count) return {};  // the decoder refuses it

@@ -18,10 +18,18 @@ void write_frame_exr(const std::filesystem::path& file, const Frame& frame) {
     ImageF mask(frame.width, frame.height, 1);
     std::copy(frame.coverage.texels.begin(), frame.coverage.texels.end(), mask.texels.begin());
     const ExrChannel channels[] = {
-        {"R", &frame.colour, 0},        {"G", &frame.colour, 1},        {"B", &frame.colour, 2},
-        {"hit.U", &frame.hit_uv, 0},    {"hit.V", &frame.hit_uv, 1},    {"height", &frame.hit_height, 0},
-        {"normal.X", &frame.normal, 0}, {"normal.Y", &frame.normal, 1}, {"normal.Z", &frame.normal, 2},
-        {"fetches", &frame.fetches, 0}, {"mask", &mask, 0},             {"shadow", &frame.shadow, 0},
+        {"R", &frame.colour, 0},
+        {"G", &frame.colour, 1},
+        {"B", &frame.colour, 2},
+        {"hit.U", &frame.hit_uv, 0},
+        {"hit.V", &frame.hit_uv, 1},
+        {"height", &frame.hit_height, 0},
+        {"normal.X", &frame.normal, 0},
+        {"normal.Y", &frame.normal, 1},
+        {"normal.Z", &frame.normal, 2},
+        {"fetches", &frame.fetches, 0},
+        {"mask", &mask, 0},
+        {"shadow", &frame.shadow, 0},
     };
     write_exr(file, channels, FirstRow::top);
 }

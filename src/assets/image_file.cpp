@@ -33,10 +33,18 @@ struct Signature {
 // Letting OpenImageIO try every plugin on unknown bytes would also try video and font decoders; a table of the formats a
 // material comes in keeps hostile files away from them.
 constexpr Signature signatures[] = {
-    {"\x89PNG\r\n\x1a\n"sv, 0, "png"}, {"\xff\xd8\xff"sv, 0, "jpeg"}, {"\x76\x2f\x31\x01"sv, 0, "openexr"},
-    {"II*\0"sv, 0, "tiff"},            {"MM\0*"sv, 0, "tiff"},        {"II+\0"sv, 0, "tiff"},
-    {"MM\0+"sv, 0, "tiff"},            {"#?RADIANCE"sv, 0, "hdr"},    {"#?RGBE"sv, 0, "hdr"},
-    {"DDS "sv, 0, "dds"},              {"BM"sv, 0, "bmp"},            {"WEBP"sv, 8, "webp"},
+    {"\x89PNG\r\n\x1a\n"sv, 0, "png"},
+    {"\xff\xd8\xff"sv, 0, "jpeg"},
+    {"\x76\x2f\x31\x01"sv, 0, "openexr"},
+    {"II*\0"sv, 0, "tiff"},
+    {"MM\0*"sv, 0, "tiff"},
+    {"II+\0"sv, 0, "tiff"},
+    {"MM\0+"sv, 0, "tiff"},
+    {"#?RADIANCE"sv, 0, "hdr"},
+    {"#?RGBE"sv, 0, "hdr"},
+    {"DDS "sv, 0, "dds"},
+    {"BM"sv, 0, "bmp"},
+    {"WEBP"sv, 8, "webp"},
 };
 
 std::string lower(std::string text) {
@@ -49,7 +57,8 @@ std::string first_bytes(const std::filesystem::path& file) {
     const auto status = std::filesystem::status(file, error);
     if (!std::filesystem::exists(status)) {
         const bool hidden = error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory;
-        throw Error("read image", file.string(), hidden ? error.message() : "there is no such file", "check the spelling of the path");
+        throw Error("read image", file.string(), hidden ? error.message() : "there is no such file",
+                    "check the spelling of the path");
     }
     if (std::filesystem::is_directory(status)) throw Error("read image", file.string(), "it is a folder", "name a picture file");
     if (!std::filesystem::is_regular_file(status)) throw Error("read image", file.string(), "it is not a plain file");
@@ -65,7 +74,8 @@ std::string first_bytes(const std::filesystem::path& file) {
 std::string plugin_for(const std::filesystem::path& file) {
     const std::string bytes = first_bytes(file);
     for (const Signature& s : signatures)
-        if (bytes.size() >= s.offset + s.bytes.size() && std::string_view(bytes).substr(s.offset, s.bytes.size()) == s.bytes) return s.plugin;
+        if (bytes.size() >= s.offset + s.bytes.size() && std::string_view(bytes).substr(s.offset, s.bytes.size()) == s.bytes)
+            return s.plugin;
     if (lower(file.extension().string()) == ".tga") return "targa";
     throw Error("read image", file.string(), "its content is not an image of a known format",
                 "known are PNG, JPEG, TGA, OpenEXR, TIFF, Radiance HDR, DDS, BMP and WebP");
@@ -99,7 +109,8 @@ OpenedImage open_image(const std::filesystem::path& file) {
 
     const OIIO::ImageSpec& spec = opened.spec;
     const std::string size = std::to_string(spec.width) + " x " + std::to_string(spec.height);
-    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw Error("read image", file.string(), "it has no texels (" + size + ")");
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
+        throw Error("read image", file.string(), "it has no texels (" + size + ")");
     if (spec.width > max_image_side || spec.height > max_image_side ||
         static_cast<long long>(spec.width) * spec.height > max_image_texels || spec.nchannels > 256)
         throw Error("read image", file.string(), size + " texels of " + std::to_string(spec.nchannels) + " channels are too many",
@@ -133,7 +144,7 @@ Image<T> decode(const std::filesystem::path& file, FirstRow first_row, OIIO::Typ
                         "fetch or export it again");
         opened.input->close();
         if constexpr (std::is_same_v<T, float>) {
-            // OpenImageIO multiplies by 1 / max, which misses the nearest float by one unit for a third of all values.
+            // OpenImageIO multiplies by 1 / max, which misses the nearest float by one unit for some values.
             if (!opened.info.floating && opened.info.bits <= 16) {
                 const float most = opened.info.bits == 8 ? 255.0f : 65535.0f;
                 for (float& x : image.texels) x = std::round(x * most) / most;
@@ -156,7 +167,8 @@ void write(const std::filesystem::path& file, const char* plugin, OIIO::ImageSpe
     try {
         auto output = OIIO::ImageOutput::create(plugin);
         if (!output)
-            throw Error("write image", file.string(), std::string("this build of OpenImageIO cannot write ") + plugin, OIIO::geterror());
+            throw Error("write image", file.string(), std::string("this build of OpenImageIO cannot write ") + plugin,
+                        OIIO::geterror());
         const auto row = static_cast<OIIO::stride_t>(texel_bytes) * spec.width;
         const char* first = static_cast<const char*>(texels);
         const bool flip = first_row == FirstRow::bottom;
@@ -186,7 +198,9 @@ ImageFileInfo read_image_info(const std::filesystem::path& file) {
     }
 }
 
-ImageF read_image(const std::filesystem::path& file, FirstRow first_row) { return decode<float>(file, first_row, OIIO::TypeDesc::FLOAT); }
+ImageF read_image(const std::filesystem::path& file, FirstRow first_row) {
+    return decode<float>(file, first_row, OIIO::TypeDesc::FLOAT);
+}
 
 Image8 read_image_8(const std::filesystem::path& file, FirstRow first_row) {
     if (!read_image_info(file).floating) return decode<std::uint8_t>(file, first_row, OIIO::TypeDesc::UINT8);
@@ -221,7 +235,8 @@ void write_png_16(const std::filesystem::path& file, const ImageF& image, FirstR
                    [](float x) { return static_cast<std::uint16_t>(std::lround(static_cast<double>(unit(x)) * 65535)); });
     OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT16);
     spec["oiio:UnassociatedAlpha"] = 1;
-    write(file, "png", spec, OIIO::TypeDesc::UINT16, texels.data(), sizeof(std::uint16_t) * static_cast<std::size_t>(image.channels), first_row);
+    write(file, "png", spec, OIIO::TypeDesc::UINT16, texels.data(),
+          sizeof(std::uint16_t) * static_cast<std::size_t>(image.channels), first_row);
 }
 
 void write_exr(const std::filesystem::path& file, std::span<const ExrChannel> channels, FirstRow first_row) {
@@ -237,7 +252,8 @@ void write_exr(const std::filesystem::path& file, std::span<const ExrChannel> ch
         assert(plane.width == width && plane.height == height && channels[c].channel < plane.channels);
         spec.channelnames.push_back(channels[c].name);
         const float* from = plane.texels.data() + channels[c].channel;
-        for (std::size_t i = 0; i * count < texels.size(); ++i) texels[i * count + c] = from[i * static_cast<std::size_t>(plane.channels)];
+        for (std::size_t i = 0; i * count < texels.size(); ++i)
+            texels[i * count + c] = from[i * static_cast<std::size_t>(plane.channels)];
     }
     spec["compression"] = "zip";
     spec.alpha_channel = -1;  // "A" here would be a measurement, not a reason to divide

@@ -113,11 +113,10 @@ MapAgreement compare_maps(const HeightField& height, const ImageF& normal) {
     int width = std::min({height.width(), normal.width, largest_compared});
     int rows = std::min({height.height(), normal.height, largest_compared});
     MapAgreement best;
-    ImageF heights = height.texels;
-    ImageF normals = normal;
+    ImageF heights, normals;
     for (; std::min(width, rows) >= smallest_compared; width /= 2, rows /= 2) {
-        heights = shrink(heights, width, rows);
-        normals = shrink(normals, width, rows);
+        heights = shrink(heights.empty() ? height.texels : heights, width, rows);
+        normals = shrink(normals.empty() ? normal : normals, width, rows);
         const MapAgreement here = compare_at(heights, normals);
         if (best.width == 0 || std::abs(here.x) + std::abs(here.y) > std::abs(best.x) + std::abs(best.y)) best = here;
     }

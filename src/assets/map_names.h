@@ -9,10 +9,10 @@ namespace relievo {
 enum class MapRole { colour, height, normal, ignored };  // ignored: known, of no use here (roughness, occlusion, ...)
 
 struct MapName {
-    std::string_view word;           // lower case; words of two parts stand joined: "nor_gl", "NorGL", "nor-gl" are "norgl"
+    std::string_view word;  // lower case; words of two parts stand joined: "nor_gl", "NorGL", "nor-gl" are "norgl"
     MapRole role;
-    int rank = 0;                    // among several files of one role the lowest rank wins
-    std::string_view meaning = {};   // what the name promises beyond the role: "depth" (white is low), "up", "down" (green)
+    int rank = 0;                   // among several files of one role the lowest rank wins
+    std::string_view meaning = {};  // what the name promises beyond the role: "depth" (white is low), "up", "down" (green)
 };
 
 std::span<const MapName> map_names();

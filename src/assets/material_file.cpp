@@ -10,6 +10,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string_view>
 #include <system_error>
 
@@ -20,7 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Endings of pictures among a folder's other files (licences, previews of 3D tools, the sidecar).
-constexpr std::string_view picture_endings[] = {".png", ".jpg", ".jpeg", ".tga", ".exr", ".tif", ".tiff", ".hdr", ".dds", ".bmp", ".webp"};
+constexpr std::string_view picture_endings[] = {".png",  ".jpg", ".jpeg", ".tga", ".exr", ".tif",
+                                                ".tiff", ".hdr", ".dds",  ".bmp", ".webp"};
 
 std::string number(double x, const char* format = "%.3g") {
     char text[64];
@@ -32,10 +34,12 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
     std::error_code error;
     const auto status = fs::status(folder, error);
     if (!fs::exists(status))
-        throw Error("load material", folder.string(), error && error != std::errc::no_such_file_or_directory ? error.message() : "there is no such folder",
+        throw Error("load material", folder.string(),
+                    error && error != std::errc::no_such_file_or_directory ? error.message() : "there is no such folder",
                     "check the spelling of the path");
     if (!fs::is_directory(status))
-        throw Error("load material", folder.string(), "it is a file, not a folder", "name the folder that holds the maps, or the files one by one");
+        throw Error("load material", folder.string(), "it is a file, not a folder",
+                    "name the folder that holds the maps, or the files one by one");
     std::vector<fs::path> pictures;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
         std::string ending = it->path().extension().string();
@@ -65,9 +69,10 @@ float luma(const float* rgb) {
     return 0.299f * rgb[0] + 0.587f * rgb[1] + 0.114f * rgb[2];
 }
 
-// Greys differ between channels by what JPEG and dithering leave, which averages below 0.02; colour photographs of even grey
-// stone average above 0.05.
-constexpr double colour_chroma = 0.04;
+// Mean difference between the largest and the smallest channel. Of 30 real height maps none exceeds 0.01 (JPEG and palettes leave
+// that much); of their colours those that are not all but grey begin at 0.045. A grey photograph cannot be told from a height.
+constexpr double colour_chroma = 0.03;
+constexpr double noted_chroma = 0.012;
 
 HeightField read_height(const fs::path& file, std::vector<std::string>& notes) {
     const ImageFileInfo info = read_image_info(file);
@@ -75,14 +80,26 @@ HeightField read_height(const fs::path& file, std::vector<std::string>& notes) {
     const bool rgb = image.channels >= 3;
     if (rgb) {
         double chroma = 0;
+        float least = std::numeric_limits<float>::infinity();
+        float most = -least;
         for (std::size_t i = 0; i < image.texels.size(); i += static_cast<std::size_t>(image.channels)) {
             const auto [low, high] = std::minmax({image.texels[i], image.texels[i + 1], image.texels[i + 2]});
-            if (std::isfinite(low) && std::isfinite(high)) chroma += static_cast<double>(high - low);
+            if (!std::isfinite(low) || !std::isfinite(high)) continue;
+            chroma += static_cast<double>(high - low);
+            least = std::min(least, low);
+            most = std::max(most, high);
         }
         chroma /= static_cast<double>(image.width) * image.height;
-        if (!info.floating && chroma > colour_chroma)
-            throw Error("load height map", file.string(), "it is a colour picture: its channels differ by " + number(chroma) + " on average (grey stays below " +
-                        number(colour_chroma) + ")", "a height is one grey value per texel; name the right file, or convert this one to grey if it is meant");
+        // Floats have no fixed unit; the range they use is theirs.
+        if (info.floating) chroma = most > least ? chroma / static_cast<double>(most - least) : 0;
+        if (chroma > colour_chroma)
+            throw Error("load height map", file.string(),
+                        "it is a colour picture: its channels differ by " + number(chroma) + " on average (grey stays below " +
+                            number(colour_chroma) + ")",
+                        "a height is one grey value per texel; name the right file, or convert this one to grey if it is meant");
+        if (chroma > noted_chroma)
+            notes.push_back("the height map is slightly coloured (its channels differ by " + number(chroma) +
+                            " on average); its luma is used");
     }
     HeightField field(image.width, image.height);
     std::size_t broken = 0;
@@ -96,8 +113,9 @@ HeightField read_height(const fs::path& file, std::vector<std::string>& notes) {
     if (broken) {
         const auto width = static_cast<std::size_t>(image.width);
         const auto row = static_cast<std::size_t>(image.height) - 1 - first_broken / width;
-        throw Error("load height map", file.string(), std::to_string(broken) + " of its texels are NaN or infinite, one of them in column " +
-                    std::to_string(first_broken % width) + ", row " + std::to_string(row) + " from the top",
+        throw Error("load height map", file.string(),
+                    std::to_string(broken) + " of its texels are NaN or infinite, one of them in column " +
+                        std::to_string(first_broken % width) + ", row " + std::to_string(row) + " from the top",
                     "fill them in an image editor (\"fix NaN\", inpainting) or export the map again");
     }
     const auto [low, high] = std::minmax_element(field.texels.texels.begin(), field.texels.texels.end());
@@ -106,7 +124,8 @@ HeightField read_height(const fs::path& file, std::vector<std::string>& notes) {
     if (least < 0 || most > 1) {
         const float range = most - least;
         if (!std::isfinite(range))
-            throw Error("load height map", file.string(), "its heights run from " + number(least) + " to " + number(most), "scale them into [0,1]");
+            throw Error("load height map", file.string(), "its heights run from " + number(least) + " to " + number(most),
+                        "scale them into [0,1]");
         for (float& h : field.texels.texels) h = range > 0 ? (h - least) / range : 0.5f;
         notes.push_back("heights run from " + number(least, "%.6g") + " to " + number(most, "%.6g") + "; scaled to [0,1]");
     } else if (least == most) {
@@ -145,13 +164,17 @@ ImageF read_normal(const fs::path& file, std::vector<std::string>& notes) {
             out[2] = 1;
             continue;
         }
-        if (!rebuild_z) chroma += static_cast<double>(std::max({texel[0], texel[1], texel[2]}) - std::min({texel[0], texel[1], texel[2]}));
+        if (!rebuild_z)
+            chroma += static_cast<double>(std::max({texel[0], texel[1], texel[2]}) - std::min({texel[0], texel[1], texel[2]}));
         out[0] = x / length, out[1] = y / length, out[2] = z / length;
     }
-    const auto percent = [&](std::size_t part) { return number(100.0 * static_cast<double>(part) / static_cast<double>(count)) + " %"; };
+    const auto percent = [&](std::size_t part) {
+        return number(100.0 * static_cast<double>(part) / static_cast<double>(count)) + " %";
+    };
     // A tangent-space map has all its normals above the plane but for strays of compression.
     if (static_cast<double>(unusable) > 0.25 * static_cast<double>(count - unset) || unset == count)
-        throw Error("load normal map", file.string(), percent(unusable + unset) + " of its texels are no normals of a surface seen from above",
+        throw Error("load normal map", file.string(),
+                    percent(unusable + unset) + " of its texels are no normals of a surface seen from above",
                     "is it a colour, or an object-space normal map?");
     if (!rebuild_z && chroma < colour_chroma * static_cast<double>(count - unset - unusable))
         throw Error("load normal map", file.string(), "it is grey", "is it a height?");
@@ -185,7 +208,8 @@ std::string name_of(const MaterialFiles& files) {
 // "-0.97 in x and +0.97 in y at 128 x 128 texels"
 std::string figures_of(const MapAgreement& a) {
     if (a.width == 0) return "too small to compare";
-    return number(a.x, "%+.2f") + " in x and " + number(a.y, "%+.2f") + " in y at " + std::to_string(a.width) + " x " + std::to_string(a.height) + " texels";
+    return number(a.x, "%+.2f") + " in x and " + number(a.y, "%+.2f") + " in y at " + std::to_string(a.width) + " x " +
+           std::to_string(a.height) + " texels";
 }
 
 std::string_view meaning_of_name(const fs::path& file) {
@@ -201,32 +225,41 @@ bool is_inverted(const MaterialFiles& files, const MaterialSidecar& sidecar, con
     if (sidecar.white_is_high) {
         const bool inverted = !*sidecar.white_is_high;
         if (reading.polarity_decided && reading.inverted != inverted)
-            notes.push_back(std::string("material.toml says white is ") + (inverted ? "low" : "high") + ", and is obeyed, but the maps say the opposite: " + evidence);
+            notes.push_back(std::string("material.toml says white is ") + (inverted ? "low" : "high") +
+                            ", and is obeyed, but the maps say the opposite: " + evidence);
         return inverted;
     }
     if (reading.polarity_decided) {
-        notes.push_back((reading.inverted ? "height reads as depth (white is low) and was inverted: " : "height reads as height (white is high): ") + evidence);
+        notes.push_back((reading.inverted ? "height reads as depth (white is low) and was inverted: "
+                                          : "height reads as height (white is high): ") +
+                        evidence);
         return reading.inverted;
     }
     const bool inverted = meaning_of_name(*files.height) == "depth";
-    const std::string because = inverted ? "white taken as low, from the name " + files.height->filename().string() + ", and inverted" : "white taken as high";
-    notes.push_back(because + (agreement ? "; the maps leave it undecided: slopes correlate " + figures_of(*agreement) : "; there is no normal map to check it against"));
+    const std::string because = inverted
+                                    ? "white taken as low, from the name " + files.height->filename().string() + ", and inverted"
+                                    : "white taken as high";
+    notes.push_back(because + (agreement ? "; the maps leave it undecided: slopes correlate " + figures_of(*agreement)
+                                         : "; there is no normal map to check it against"));
     return inverted;
 }
 
 bool is_green_down(const MaterialFiles& files, const MaterialSidecar& sidecar, const std::optional<MapAgreement>& agreement,
                    std::vector<std::string>& notes) {
     MapReading reading = agreement ? read_agreement(*agreement) : MapReading{};
-    if (sidecar.white_is_high && !reading.polarity_decided && !*sidecar.white_is_high) reading.green_down = reading.green_decided && !reading.green_down;
+    if (sidecar.white_is_high && !reading.polarity_decided && !*sidecar.white_is_high)
+        reading.green_down = reading.green_decided && !reading.green_down;
     const std::string evidence = agreement ? "slopes of height and normals correlate " + figures_of(*agreement) : "";
     if (sidecar.normal_y_up) {
         const bool down = !*sidecar.normal_y_up;
         if (reading.green_decided && reading.green_down != down)
-            notes.push_back(std::string("material.toml says green points ") + (down ? "down" : "up") + ", and is obeyed, but the maps say the opposite: " + evidence);
+            notes.push_back(std::string("material.toml says green points ") + (down ? "down" : "up") +
+                            ", and is obeyed, but the maps say the opposite: " + evidence);
         return down;
     }
     if (reading.green_decided) {
-        notes.push_back(std::string("green of the normals points ") + (reading.green_down ? "down (DirectX) and was flipped" : "up (OpenGL)") +
+        notes.push_back(std::string("green of the normals points ") +
+                        (reading.green_down ? "down (DirectX) and was flipped" : "up (OpenGL)") +
                         (reading.polarity_decided && !sidecar.white_is_high ? ", by the same figures" : ": " + evidence));
         return reading.green_down;
     }
@@ -234,7 +267,8 @@ bool is_green_down(const MaterialFiles& files, const MaterialSidecar& sidecar, c
     const bool named = down || meaning_of_name(*files.normal) == "up";
     notes.push_back(std::string("green of the normals taken as ") + (down ? "down (DirectX) and flipped" : "up (OpenGL)") +
                     (named ? ", from the name " + files.normal->filename().string() : "") +
-                    (agreement ? "; the maps leave it undecided: slopes correlate " + figures_of(*agreement) : "; there is no height map to check it against"));
+                    (agreement ? "; the maps leave it undecided: slopes correlate " + figures_of(*agreement)
+                               : "; there is no height map to check it against"));
     return down;
 }
 
@@ -245,7 +279,8 @@ constexpr double strong_agreement = 0.8;
 constexpr float least_height_scale = 0.02f;
 constexpr float most_height_scale = 0.12f;
 
-float height_scale_of(const MaterialSidecar& sidecar, const std::optional<MapAgreement>& agreement, std::vector<std::string>& notes) {
+float height_scale_of(const MaterialSidecar& sidecar, const std::optional<MapAgreement>& agreement,
+                      std::vector<std::string>& notes) {
     if (sidecar.height_scale) return *sidecar.height_scale;
     const float usual = Material{}.height_scale;
     if (!agreement) {
@@ -254,13 +289,17 @@ float height_scale_of(const MaterialSidecar& sidecar, const std::optional<MapAgr
     }
     const double strength = std::sqrt((agreement->x * agreement->x + agreement->y * agreement->y) / 2);
     if (strength < strong_agreement) {
-        notes.push_back("height_scale " + number(usual) + " assumed: the maps agree too little (" + number(strength, "%.2f") + ") to imply one");
+        notes.push_back("height_scale " + number(usual) + " assumed: the maps agree too little (" + number(strength, "%.2f") +
+                        ") to imply one");
         return usual;
     }
     const auto implied = static_cast<float>(agreement->height_scale);
     const float used = std::clamp(implied, least_height_scale, most_height_scale);
-    notes.push_back("height_scale " + number(used) + (used == implied ? " follows from the slopes of height and normals"
-                    : "; the slopes of height and normals together imply " + number(implied) + ", which is outside the useful range " + number(least_height_scale) + " to " + number(most_height_scale)));
+    notes.push_back("height_scale " + number(used) +
+                    (used == implied ? " follows from the slopes of height and normals"
+                                     : "; the slopes of height and normals together imply " + number(implied) +
+                                           ", which is outside the useful range " + number(least_height_scale) + " to " +
+                                           number(most_height_scale)));
     return used;
 }
 
@@ -285,7 +324,8 @@ MaterialFiles find_material_files(const fs::path& folder, std::vector<std::strin
                 continue;
             }
             if (!candidates.empty() && name->rank < best) {
-                for (const fs::path& worse : candidates) passed_over += (passed_over.empty() ? "" : ", ") + worse.filename().string();
+                for (const fs::path& worse : candidates)
+                    passed_over += (passed_over.empty() ? "" : ", ") + worse.filename().string();
                 candidates.clear();
             }
             best = name->rank;
@@ -293,10 +333,14 @@ MaterialFiles find_material_files(const fs::path& folder, std::vector<std::strin
         }
         if (candidates.empty()) return std::nullopt;
         if (candidates.size() > 1 && role != MapRole::colour)
-            throw Error("load material", folder.string(), std::string("it has several ") + role_name + " maps: " + list_of(candidates),
-                        std::string("name one under [files] in its material.toml: ") + role_name + " = \"" + candidates.front().filename().string() + "\"");
-        for (std::size_t i = 1; i < candidates.size(); ++i) passed_over += (passed_over.empty() ? "" : ", ") + candidates[i].filename().string();
-        if (!passed_over.empty()) notes.push_back(std::string(role_name) + " is " + candidates.front().filename().string() + ", not " + passed_over);
+            throw Error("load material", folder.string(),
+                        std::string("it has several ") + role_name + " maps: " + list_of(candidates),
+                        std::string("name one under [files] in its material.toml: ") + role_name + " = \"" +
+                            candidates.front().filename().string() + "\"");
+        for (std::size_t i = 1; i < candidates.size(); ++i)
+            passed_over += (passed_over.empty() ? "" : ", ") + candidates[i].filename().string();
+        if (!passed_over.empty())
+            notes.push_back(std::string(role_name) + " is " + candidates.front().filename().string() + ", not " + passed_over);
         return candidates.front();
     };
     MaterialSidecar sidecar;
@@ -309,9 +353,12 @@ MaterialFiles find_material_files(const fs::path& folder, std::vector<std::strin
     files.height = find(sidecar.height, MapRole::height, "height");
     files.normal = find(sidecar.normal, MapRole::normal, "normal");
     if (!files.height && !files.normal) {
-        const std::string advice = "a material needs a height or a normal map, with a name like height.png, rock_disp.png, rock_normal.png or rock_nor_gl.exr";
+        const std::string advice =
+            "a material needs a height or a normal map, with a name like height.png, rock_disp.png, rock_normal.png or "
+            "rock_nor_gl.exr";
         if (pictures.empty()) throw Error("load material", folder.string(), "there is no picture in it", advice);
-        throw Error("load material", folder.string(), "none of its pictures is a height or a normal map by its name: " + list_of(pictures), advice);
+        throw Error("load material", folder.string(),
+                    "none of its pictures is a height or a normal map by its name: " + list_of(pictures), advice);
     }
     return files;
 }
@@ -339,8 +386,10 @@ Material load_material(const MaterialFiles& files) {
         for (std::size_t i = 1; i < material.normal->texels.size(); i += 3) material.normal->texels[i] *= -1;
 
     material.height_scale = height_scale_of(sidecar, agreement, material.notes);
-    if (sidecar.zero_level) material.zero_level = *sidecar.zero_level;
-    else material.notes.push_back("zero_level " + number(material.zero_level) + " assumed: the relief is carved below the polygon");
+    if (sidecar.zero_level)
+        material.zero_level = *sidecar.zero_level;
+    else
+        material.notes.push_back("zero_level " + number(material.zero_level) + " assumed: the relief is carved below the polygon");
     material.physical_size_m = sidecar.physical_size_m;
     return material;
 }

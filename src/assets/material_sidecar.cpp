@@ -49,9 +49,12 @@ public:
         for (const auto& [key, value] : table) {
             const std::string_view name = key.str();
             if (std::find(keys.begin(), keys.end(), name) != keys.end()) continue;
-            const auto nearest = std::min_element(keys.begin(), keys.end(), [&](std::string_view a, std::string_view b) { return edits_between(a, name) < edits_between(b, name); });
+            const auto nearest = std::min_element(keys.begin(), keys.end(), [&](std::string_view a, std::string_view b) {
+                return edits_between(a, name) < edits_between(b, name);
+            });
             std::string advice;
-            if (edits_between(*nearest, name) <= std::max<std::size_t>(2, nearest->size() / 3)) advice = "did you mean \"" + std::string(*nearest) + "\"? ";
+            if (edits_between(*nearest, name) <= std::max<std::size_t>(2, nearest->size() / 3))
+                advice = "did you mean \"" + std::string(*nearest) + "\"? ";
             advice += "Known" + where + " are";
             for (const std::string_view& k : keys) advice += (&k == &keys.front() ? " " : ", ") + std::string(k);
             fail(value, "unknown key \"" + std::string(name) + "\"", advice);
@@ -63,7 +66,9 @@ public:
         const toml::node* node = table.get(key);
         if (!node) return std::nullopt;
         // value_exact would refuse 1 for 1.0; value would take true for 1.
-        const bool matches = std::is_same_v<T, double> ? node->is_number() : std::is_same_v<T, bool> ? node->is_boolean() : node->is_string();
+        const bool matches = std::is_same_v<T, double> ? node->is_number()
+                             : std::is_same_v<T, bool> ? node->is_boolean()
+                                                       : node->is_string();
         if (!matches) fail(*node, std::string(key) + " must be " + expected, {});
         return *node->value<T>();
     }
@@ -82,7 +87,8 @@ public:
     }
 
     [[noreturn]] void fail(const toml::node& node, const std::string& reason, const std::string& advice) const {
-        throw Error("read material description", file_.string() + ", line " + std::to_string(node.source().begin.line), reason, advice);
+        throw Error("read material description", file_.string() + ", line " + std::to_string(node.source().begin.line), reason,
+                    advice);
     }
 
 private:
@@ -122,12 +128,14 @@ MaterialSidecar read_sidecar(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     std::ostringstream text;
     if (!std::filesystem::is_regular_file(file) || !in || !(in.peek() == std::ifstream::traits_type::eof() || text << in.rdbuf()))
-        throw Error("read material description", file.string(), "it cannot be opened", "check that it is there and its permissions");
+        throw Error("read material description", file.string(), "it cannot be opened",
+                    "check that it is there and its permissions");
     toml::table table;
     try {
         table = toml::parse(text.str(), file.string());
     } catch (const toml::parse_error& e) {
-        throw Error("read material description", file.string() + ", line " + std::to_string(e.source().begin.line), std::string(e.description()));
+        throw Error("read material description", file.string() + ", line " + std::to_string(e.source().begin.line),
+                    std::string(e.description()));
     }
     const Reader reader(file);
     reader.known_keys(table, top_keys, " keys");
@@ -138,7 +146,8 @@ MaterialSidecar read_sidecar(const std::filesystem::path& file) {
     sidecar.zero_level = reader.number(table, "zero_level", 0, 1, true);
     sidecar.white_is_high = reader.get<bool>(table, "white_is_high", "true or false");
     if (const auto y = reader.get<std::string>(table, "normal_y", "\"up\" or \"down\"")) {
-        if (*y != "up" && *y != "down") reader.fail(*table.get("normal_y"), "normal_y must be \"up\" or \"down\", not \"" + *y + "\"", {});
+        if (*y != "up" && *y != "down")
+            reader.fail(*table.get("normal_y"), "normal_y must be \"up\" or \"down\", not \"" + *y + "\"", {});
         sidecar.normal_y_up = *y == "up";
     }
     if (const toml::node* node = table.get("files")) {

@@ -14,7 +14,8 @@ Buffer make_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFla
     } catch (const Error&) {
         type = device.memory_type(needs.memoryTypeBits, coherent);
     }
-    buffer.memory = vk::raii::DeviceMemory(device.handle(), vk::MemoryAllocateInfo{.allocationSize = needs.size, .memoryTypeIndex = type});
+    buffer.memory =
+        vk::raii::DeviceMemory(device.handle(), vk::MemoryAllocateInfo{.allocationSize = needs.size, .memoryTypeIndex = type});
     buffer.handle.bindMemory(*buffer.memory, 0);
     buffer.mapped = buffer.memory.mapMemory(0, VK_WHOLE_SIZE);
     return buffer;

@@ -12,7 +12,9 @@ struct Buffer {
     void* mapped = nullptr;
 
     template <class T>
-    T* as() const { return static_cast<T*>(mapped); }
+    T* as() const {
+        return static_cast<T*>(mapped);
+    }
 };
 
 // Host-coherent; cached where the device has that, because results are read back whole.

@@ -31,7 +31,11 @@ constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* advice_drivers = "install a Vulkan driver; Mesa's software device (mesa-vulkan-drivers) runs on any machine";
 
 vk::ApplicationInfo application() {
-    return {.pApplicationName = "relievo", .applicationVersion = 1, .pEngineName = "relievo", .engineVersion = 1, .apiVersion = VK_API_VERSION_1_3};
+    return {.pApplicationName = "relievo",
+            .applicationVersion = 1,
+            .pEngineName = "relievo",
+            .engineVersion = 1,
+            .apiVersion = VK_API_VERSION_1_3};
 }
 
 // The first queue family that draws, computes and stamps times, or -1.
@@ -51,7 +55,8 @@ std::string missing_features(const vk::raii::PhysicalDevice& physical) {
     if (!features.synchronization2) return "synchronization2";
     if (find_queue_family(physical) < 0) return "a queue that draws, computes and stamps times";
     const auto linear = [&](vk::Format format) {
-        return bool(physical.getFormatProperties(format).optimalTilingFeatures & vk::FormatFeatureFlagBits::eSampledImageFilterLinear);
+        return bool(physical.getFormatProperties(format).optimalTilingFeatures &
+                    vk::FormatFeatureFlagBits::eSampledImageFilterLinear);
     };
     // Heights must keep their precision to the end: a 16-bit fallback would move hits by more than what is measured.
     if (!linear(vk::Format::eR32Sfloat) || !linear(vk::Format::eR32G32Sfloat)) return "linear filtering of 32-bit float textures";
@@ -63,11 +68,13 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical) {
     const auto& properties = chain.get<vk::PhysicalDeviceProperties2>().properties;
     const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
     const auto version = [](std::uint32_t v) {
-        return std::to_string(VK_API_VERSION_MAJOR(v)) + "." + std::to_string(VK_API_VERSION_MINOR(v)) + "." + std::to_string(VK_API_VERSION_PATCH(v));
+        return std::to_string(VK_API_VERSION_MAJOR(v)) + "." + std::to_string(VK_API_VERSION_MINOR(v)) + "." +
+               std::to_string(VK_API_VERSION_PATCH(v));
     };
     DeviceInfo info;
     info.name = properties.deviceName.data();
-    info.driver = std::string(driver.driverName.data()) + " " + driver.driverInfo.data() + ", Vulkan " + version(properties.apiVersion);
+    info.driver =
+        std::string(driver.driverName.data()) + " " + driver.driverInfo.data() + ", Vulkan " + version(properties.apiVersion);
     info.software = properties.deviceType == vk::PhysicalDeviceType::eCpu;
     info.lacks = missing_features(physical);
     info.usable = info.lacks.empty();
@@ -81,7 +88,8 @@ std::string lower(std::string text) {
 
 std::string listing(const std::vector<DeviceInfo>& devices) {
     std::string text = "devices here:";
-    for (const DeviceInfo& d : devices) text += "\n    " + d.name + (d.software ? " (software)" : "") + (d.usable ? "" : ", lacks " + d.lacks);
+    for (const DeviceInfo& d : devices)
+        text += "\n    " + d.name + (d.software ? " (software)" : "") + (d.usable ? "" : ", lacks " + d.lacks);
     return text;
 }
 
@@ -89,18 +97,22 @@ std::string listing(const std::vector<DeviceInfo>& devices) {
 std::size_t choose(const std::vector<DeviceInfo>& devices, const std::string& choice) {
     if (devices.empty()) throw Error("use", "the GPU", "no Vulkan device was found", advice_drivers);
     const auto first = [&](auto&& matches) {
-        return static_cast<std::size_t>(std::ranges::find_if(devices, [&](const DeviceInfo& d) { return d.usable && matches(d); }) - devices.begin());
+        return static_cast<std::size_t>(std::ranges::find_if(devices, [&](const DeviceInfo& d) { return d.usable && matches(d); }) -
+                                        devices.begin());
     };
     const auto software = [](const DeviceInfo& d) { return d.software; };
     std::size_t found = devices.size();
     if (choice.empty()) {
         found = first([](const DeviceInfo& d) { return !d.software; });
         if (found == devices.size()) found = first(software);
-        if (found == devices.size()) throw Error("use", "the GPU", "no device has what relievo needs", listing(devices) + "\n  " + advice_drivers);
+        if (found == devices.size())
+            throw Error("use", "the GPU", "no device has what relievo needs", listing(devices) + "\n  " + advice_drivers);
     } else {
         if (lower(choice) == "software") found = first(software);
-        if (found == devices.size()) found = first([&](const DeviceInfo& d) { return lower(d.name).find(lower(choice)) != std::string::npos; });
-        if (found == devices.size()) throw Error("use", "the device '" + choice + "'", "no usable device is called that", listing(devices));
+        if (found == devices.size())
+            found = first([&](const DeviceInfo& d) { return lower(d.name).find(lower(choice)) != std::string::npos; });
+        if (found == devices.size())
+            throw Error("use", "the device '" + choice + "'", "no usable device is called that", listing(devices));
     }
     return found;
 }
@@ -142,7 +154,8 @@ Device::Device(const DeviceSettings& settings) : messages_(std::make_unique<Mess
         .pUserData = messages_.get()};
     // Hazards between our own passes are what layers find best, but only when asked.
     const auto hazards = vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
-    const vk::ValidationFeaturesEXT validation{.pNext = &messenger, .enabledValidationFeatureCount = 1, .pEnabledValidationFeatures = &hazards};
+    const vk::ValidationFeaturesEXT validation{
+        .pNext = &messenger, .enabledValidationFeatureCount = 1, .pEnabledValidationFeatures = &hazards};
     if (settings.validation) {
         const auto available = context_->enumerateInstanceLayerProperties();
         if (std::ranges::none_of(available, [](const auto& l) { return std::strcmp(l.layerName, validation_layer) == 0; }))
@@ -152,12 +165,13 @@ Device::Device(const DeviceSettings& settings) : messages_(std::make_unique<Mess
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
     try {
-        instance_ = vk::raii::Instance(*context_, vk::InstanceCreateInfo{.pNext = settings.validation ? &validation : nullptr,
-                                                                       .pApplicationInfo = &app,
-                                                                       .enabledLayerCount = static_cast<std::uint32_t>(layers.size()),
-                                                                       .ppEnabledLayerNames = layers.data(),
-                                                                       .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
-                                                                       .ppEnabledExtensionNames = extensions.data()});
+        instance_ = vk::raii::Instance(
+            *context_, vk::InstanceCreateInfo{.pNext = settings.validation ? &validation : nullptr,
+                                              .pApplicationInfo = &app,
+                                              .enabledLayerCount = static_cast<std::uint32_t>(layers.size()),
+                                              .ppEnabledLayerNames = layers.data(),
+                                              .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+                                              .ppEnabledExtensionNames = extensions.data()});
     } catch (const vk::SystemError& e) {
         throw Error("use", "the GPU", e.what(), advice_drivers);
     }
@@ -178,14 +192,17 @@ Device::Device(const DeviceSettings& settings) : messages_(std::make_unique<Mess
 
         const float priority = 1;
         const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = queue_family_, .queueCount = 1, .pQueuePriorities = &priority};
-        const vk::PhysicalDeviceVulkan13Features features{.synchronization2 = true, .dynamicRendering = true};
-        device_ = vk::raii::Device(physical_, vk::DeviceCreateInfo{.pNext = &features,
-                                                                   .queueCreateInfoCount = 1,
-                                                                   .pQueueCreateInfos = &queue,
-                                                                   .enabledExtensionCount = static_cast<std::uint32_t>(settings.device_extensions.size()),
-                                                                   .ppEnabledExtensionNames = settings.device_extensions.data()});
+        // maintenance4 because SPIR-V 1.6 states a workgroup's size in the way that it brings; Vulkan 1.3 devices all have it.
+        const vk::PhysicalDeviceVulkan13Features features{.synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
+        device_ = vk::raii::Device(
+            physical_, vk::DeviceCreateInfo{.pNext = &features,
+                                            .queueCreateInfoCount = 1,
+                                            .pQueueCreateInfos = &queue,
+                                            .enabledExtensionCount = static_cast<std::uint32_t>(settings.device_extensions.size()),
+                                            .ppEnabledExtensionNames = settings.device_extensions.data()});
         queue_ = device_.getQueue(queue_family_, 0);
-        pool_ = vk::raii::CommandPool(device_, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eTransient, .queueFamilyIndex = queue_family_});
+        pool_ = vk::raii::CommandPool(device_, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eTransient,
+                                                                         .queueFamilyIndex = queue_family_});
     });
 }
 
@@ -194,7 +211,8 @@ Device::~Device() = default;
 std::vector<std::string> Device::validation_messages() const { return messages_->texts(); }
 
 void Device::run(const std::function<void(const vk::raii::CommandBuffer&)>& record) const {
-    const vk::raii::CommandBuffers buffers(device_, {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1});
+    const vk::raii::CommandBuffers buffers(
+        device_, {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1});
     const vk::raii::CommandBuffer& commands = buffers.front();
     commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     record(commands);
@@ -215,10 +233,11 @@ std::uint32_t Device::memory_type(std::uint32_t allowed, vk::MemoryPropertyFlags
 }
 
 void full_barrier(const vk::raii::CommandBuffer& commands) {
-    const vk::MemoryBarrier2 all{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
-                                 .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
-                                 .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands | vk::PipelineStageFlagBits2::eHost,
-                                 .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite | vk::AccessFlagBits2::eHostRead};
+    const vk::MemoryBarrier2 all{
+        .srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+        .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+        .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands | vk::PipelineStageFlagBits2::eHost,
+        .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite | vk::AccessFlagBits2::eHostRead};
     commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &all});
 }
 

@@ -13,7 +13,7 @@ constexpr std::uint16_t to_half(float value) {
     if (magnitude > 0x7f800000u) return static_cast<std::uint16_t>(sign | 0x7e00u);   // not a number
     if (magnitude >= 0x477ff000u) return static_cast<std::uint16_t>(sign | 0x7c00u);  // 65520 and more round to infinity
     std::uint32_t half = 0;
-    std::uint32_t rest = 0;  // the bits dropped, their first at bit 31
+    std::uint32_t rest = 0;          // the bits dropped, their first at bit 31
     if (magnitude >= 0x38800000u) {  // 2^-14: normal halves; exponents differ by 127 - 15
         half = (magnitude - 0x38000000u) >> 13;
         rest = magnitude << 19;

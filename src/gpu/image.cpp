@@ -28,12 +28,14 @@ Image make_image(const Device& device, vk::Format format, vk::Extent2D extent, s
     const auto needs = image.handle.getMemoryRequirements();
     image.memory = vk::raii::DeviceMemory(
         device.handle(), vk::MemoryAllocateInfo{.allocationSize = needs.size,
-                                                .memoryTypeIndex = device.memory_type(needs.memoryTypeBits, vk::MemoryPropertyFlagBits::eDeviceLocal)});
+                                                .memoryTypeIndex = device.memory_type(needs.memoryTypeBits,
+                                                                                      vk::MemoryPropertyFlagBits::eDeviceLocal)});
     image.handle.bindMemory(*image.memory, 0);
-    image.view = vk::raii::ImageView(device.handle(), vk::ImageViewCreateInfo{.image = *image.handle,
-                                                                              .viewType = vk::ImageViewType::e2D,
-                                                                              .format = format,
-                                                                              .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, levels, 0, 1}});
+    image.view = vk::raii::ImageView(
+        device.handle(), vk::ImageViewCreateInfo{.image = *image.handle,
+                                                 .viewType = vk::ImageViewType::e2D,
+                                                 .format = format,
+                                                 .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, levels, 0, 1}});
     return image;
 }
 
@@ -53,8 +55,11 @@ void transition(const vk::raii::CommandBuffer& commands, const Image& image, vk:
 
 Image make_texture(const Device& device, vk::Format format, vk::Extent2D extent, std::uint32_t levels, std::size_t bytes_per_texel,
                    const WriteRow& write_row) {
-    Image image = make_image(device, format, extent, levels, vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
-    const Buffer staging = make_buffer(device, std::max(staging_bytes, extent.width * bytes_per_texel), vk::BufferUsageFlagBits::eTransferSrc);
+    Image image =
+        make_image(device, format, extent, levels,
+                   vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eTransferSrc);
+    const Buffer staging =
+        make_buffer(device, std::max(staging_bytes, extent.width * bytes_per_texel), vk::BufferUsageFlagBits::eTransferSrc);
     device.run([&](const vk::raii::CommandBuffer& commands) {
         transition(commands, image, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal);
     });
@@ -81,9 +86,10 @@ Image make_texture(const Device& device, vk::Format format, vk::Extent2D extent,
     return image;
 }
 
-void read_back(const vk::raii::CommandBuffer& commands, const Image& image, const Buffer& to) {
-    const vk::BufferImageCopy region{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
-                                     .imageExtent = {image.extent.width, image.extent.height, 1}};
+void read_back(const vk::raii::CommandBuffer& commands, const Image& image, const Buffer& to, std::uint32_t level) {
+    const vk::BufferImageCopy region{
+        .imageSubresource = {vk::ImageAspectFlagBits::eColor, level, 0, 1},
+        .imageExtent = {std::max(1u, image.extent.width >> level), std::max(1u, image.extent.height >> level), 1}};
     commands.copyImageToBuffer(*image.handle, vk::ImageLayout::eTransferSrcOptimal, *to.handle, region);
     full_barrier(commands);
 }

@@ -30,7 +30,8 @@ using WriteRow = std::function<void(int level, int y, std::byte* out)>;
 Image make_texture(const Device& device, vk::Format format, vk::Extent2D extent, std::uint32_t levels, std::size_t bytes_per_texel,
                    const WriteRow& write_row);
 
-// Reads a target that is in the layout transfer-source: rows top to bottom, texels tightly packed, into a buffer of that size.
-void read_back(const vk::raii::CommandBuffer& commands, const Image& image, const Buffer& to);
+// Reads a level of an image that is in the layout transfer-source: rows top to bottom, texels tightly packed, into a buffer of that
+// size.
+void read_back(const vk::raii::CommandBuffer& commands, const Image& image, const Buffer& to, std::uint32_t level = 0);
 
 }  // namespace relievo::gpu

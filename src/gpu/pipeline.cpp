@@ -17,7 +17,8 @@ vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout
     const auto fragment = module_of(device, settings.fragment);
     std::vector<vk::SpecializationMapEntry> entries;
     for (std::uint32_t i = 0; i < settings.fragment_constants.size(); ++i)
-        entries.push_back({.constantID = i, .offset = i * static_cast<std::uint32_t>(sizeof(std::uint32_t)), .size = sizeof(std::uint32_t)});
+        entries.push_back(
+            {.constantID = i, .offset = i * static_cast<std::uint32_t>(sizeof(std::uint32_t)), .size = sizeof(std::uint32_t)});
     const vk::SpecializationInfo constants{.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
                                            .pMapEntries = entries.data(),
                                            .dataSize = settings.fragment_constants.size_bytes(),
@@ -33,28 +34,31 @@ vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout
     const vk::PipelineMultisampleStateCreateInfo one_sample{.rasterizationSamples = vk::SampleCountFlagBits::e1};
     const vk::PipelineColorBlendAttachmentState write_all{.colorWriteMask = vk::FlagTraits<vk::ColorComponentFlagBits>::allFlags};
     const std::vector<vk::PipelineColorBlendAttachmentState> attachments(settings.targets.size(), write_all);
-    const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = static_cast<std::uint32_t>(attachments.size()), .pAttachments = attachments.data()};
+    const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = static_cast<std::uint32_t>(attachments.size()),
+                                                      .pAttachments = attachments.data()};
     const vk::DynamicState dynamic[] = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
     const vk::PipelineDynamicStateCreateInfo dynamic_state{.dynamicStateCount = 2, .pDynamicStates = dynamic};
     const vk::PipelineRenderingCreateInfo rendering{.colorAttachmentCount = static_cast<std::uint32_t>(settings.targets.size()),
                                                     .pColorAttachmentFormats = settings.targets.data()};
-    return {device.handle(), nullptr, vk::GraphicsPipelineCreateInfo{.pNext = &rendering,
-                                                                     .stageCount = 2,
-                                                                     .pStages = stages,
-                                                                     .pVertexInputState = &no_vertices,
-                                                                     .pInputAssemblyState = &strip,
-                                                                     .pViewportState = &viewport,
-                                                                     .pRasterizationState = &raster,
-                                                                     .pMultisampleState = &one_sample,
-                                                                     .pColorBlendState = &blend,
-                                                                     .pDynamicState = &dynamic_state,
-                                                                     .layout = layout}};
+    return {device.handle(), nullptr,
+            vk::GraphicsPipelineCreateInfo{.pNext = &rendering,
+                                           .stageCount = 2,
+                                           .pStages = stages,
+                                           .pVertexInputState = &no_vertices,
+                                           .pInputAssemblyState = &strip,
+                                           .pViewportState = &viewport,
+                                           .pRasterizationState = &raster,
+                                           .pMultisampleState = &one_sample,
+                                           .pColorBlendState = &blend,
+                                           .pDynamicState = &dynamic_state,
+                                           .layout = layout}};
 }
 
 vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout, std::span<const std::uint32_t> compute) {
     const auto module = module_of(device, compute);
     return {device.handle(), nullptr,
-            vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute, .module = *module, .pName = "main"}, .layout = layout}};
+            vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute, .module = *module, .pName = "main"},
+                                          .layout = layout}};
 }
 
 }  // namespace relievo::gpu

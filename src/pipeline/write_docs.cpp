@@ -35,8 +35,8 @@ constexpr double measured_elevation_deg = 25;
 
 // The figures' own: large enough to see a texel's error.
 constexpr int figure_texels = 512;
-constexpr int panel_width = 480;
-constexpr int panel_height = 300;
+constexpr int panel_width = 400;
+constexpr int panel_height = 240;
 constexpr double figure_elevation_deg = 20;
 
 std::string number(double value, int digits = 2) {
@@ -76,14 +76,18 @@ std::string code_of(std::string_view text) {
 
 std::string map_names(const Technique& t) {
     std::string text;
-    for (const Map m : t.maps) text += (text.empty() ? "" : ", ") + std::string(map_kinds()[static_cast<std::size_t>(m)].id);
+    for (const Map m : t.maps) {
+        if (!text.empty()) text += ", ";
+        text += map_kinds()[static_cast<std::size_t>(m)].id;
+    }
     return text.empty() ? "none" : text;
 }
 
 std::string effect_names(const Effects& e) {
     std::string text;
     const auto add = [&](bool has, const char* name) {
-        if (has) text += (text.empty() ? "" : ", ") + std::string(name);
+        if (has && !text.empty()) text += ", ";
+        if (has) text += name;
     };
     add(e.motion_parallax, "motion parallax");
     add(e.self_occlusion, "self-occlusion");
@@ -149,7 +153,7 @@ std::string chapter(const Technique& t, const std::vector<std::pair<std::string,
         << "| fetches, at most | " << t.max_fetches(default_params(t)) << " at the defaults |\n";
     for (const KnobDefault& k : t.knobs)
         out << "| `" << k.knob->id << "` = " << number(k.value, 4) << " | " << k.knob->help << " (" << number(k.knob->min, 4) << " to "
-            << number(k.knob->max, 4) << (k.knob->unit.empty() ? "" : " " + std::string(k.knob->unit)) << ") |\n";
+            << number(k.knob->max, 4) << (k.knob->unit.empty() ? "" : " ") << k.knob->unit << ") |\n";
     out << "\n## How right it is\n\n"
         << "Procedural materials of " << measured_texels << "^2 texels seen " << number(measured_elevation_deg) << " degrees above the plane, "
         << measured_width << " x " << measured_height << " rays of the CPU run of the listing above, against the exact first hit:\n\n"

@@ -8,19 +8,19 @@ namespace {
 
 constexpr double none = -1;
 
-// First s in [0, limit] at which the gap closes, or none. The stable quadratic: q never subtracts nearly equal terms (Press et
-// al., Numerical Recipes, 5.6).
+// First s in [0, limit] at which the gap closes, or none. In the stable form, which never subtracts nearly equal terms (Press et
+// al., Numerical Recipes, 5.6); a gap below 0 at the entry leaves one candidate of the two roots.
 double first_contact(const CellGap& g, double limit) {
     if (g.gap >= 0) return 0;
     const double discriminant = g.slope * g.slope - 4 * g.bend * g.gap;
     if (!(discriminant >= 0)) return none;
     const double q = -0.5 * (g.slope + std::copysign(std::sqrt(discriminant), g.slope));
-    double first = std::numeric_limits<double>::infinity();
-    // A straight profile has one root, gap / q; q is 0 only where the gap never changes.
-    for (const double root : {g.bend != 0 ? q / g.bend : none, q != 0 ? g.gap / q : none}) {
-        if (root >= 0 && root < first) first = root;
-    }
-    return first <= limit ? first : none;
+    // Closing from the start (q < 0): the nearer root. Opening at first (q > 0): closes only where the profile bends upward.
+    // Neither: the gap never changes.
+    double s = none;
+    if (q < 0) s = g.gap / q;
+    else if (q > 0 && g.bend > 0) s = q / g.bend;
+    return s >= 0 && s <= limit ? s : none;
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ bool reference_shadow(const HeightField& field, const ReferenceHit& point, Vec3d
     for (;; walk.advance()) {
         const double leave = std::min(walk.leaves(), end);
         const double z = point.height + walk.entered();
-        if (walk.entered() > 0 && z > walk.highest_corner()) {
+        if (z > walk.highest_corner()) {
             carry = false;
         } else {
             CellGap g = walk.gap(z, 1);

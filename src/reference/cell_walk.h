@@ -37,7 +37,7 @@ public:
     // The same from a given cell, whose closure holds the start.
     CellWalk(const HeightField& field, Vec2d start, Vec2d speed, Vec2i cell)
         : texels_(field.texels.texels.data()), width_(field.width()), height_(field.height()), origin_(cell), speed_(speed),
-          inverse_{1 / speed.x, 1 / speed.y}, offset_{start.x - cell.x, start.y - cell.y}, entry_(clamped(offset_)),
+          inverse_{1 / speed.x, 1 / speed.y}, offset_{start.x - cell.x, start.y - cell.y},
           column_(wrap_index(cell.x, width_)) {
         assert(!field.empty());
         set_rows(wrap_index(cell.y, height_));
@@ -56,50 +56,54 @@ public:
 
     // The gap from the cell's entry on, for a line of height z there that gains `climb` of height per unit of t.
     CellGap gap(double z, double climb) const {
+        const Vec2d at = entry();
         const int next = column_ + 1 == width_ ? 0 : column_ + 1;
         const double h00 = row_[column_];
         const double b = row_[next] - h00;
         const double c = row_above_[column_] - h00;
         const double d = (row_above_[next] - static_cast<double>(row_above_[column_])) - b;
-        return {h00 + b * entry_.x + c * entry_.y + d * entry_.x * entry_.y - z,
-                b * speed_.x + c * speed_.y + d * (entry_.x * speed_.y + entry_.y * speed_.x) - climb, d * speed_.x * speed_.y};
+        return {h00 + b * at.x + c * at.y + d * at.x * at.y - z,
+                b * speed_.x + c * speed_.y + d * (at.x * speed_.y + at.y * speed_.x) - climb, d * speed_.x * speed_.y};
     }
 
     void advance() {
         entered_ = leaves();
         if (wall_x_ <= wall_y_) {
+            through_ = Through::x;
             if (speed_.x > 0) {
                 ++step_x_;
                 column_ = column_ + 1 == width_ ? 0 : column_ + 1;
                 wall_x_ = (step_x_ + 1 - offset_.x) * inverse_.x;
-                entry_.x = 0;
             } else {
                 --step_x_;
                 column_ = column_ == 0 ? width_ - 1 : column_ - 1;
                 wall_x_ = (step_x_ - offset_.x) * inverse_.x;
-                entry_.x = 1;
             }
-            entry_.y = std::clamp(offset_.y + speed_.y * entered_ - step_y_, 0.0, 1.0);
         } else {
+            through_ = Through::y;
             if (speed_.y > 0) {
                 ++step_y_;
                 set_rows(current_row_ + 1 == height_ ? 0 : current_row_ + 1);
                 wall_y_ = (step_y_ + 1 - offset_.y) * inverse_.y;
-                entry_.y = 0;
             } else {
                 --step_y_;
                 set_rows(current_row_ == 0 ? height_ - 1 : current_row_ - 1);
                 wall_y_ = (step_y_ - offset_.y) * inverse_.y;
-                entry_.y = 1;
             }
-            entry_.x = std::clamp(offset_.x + speed_.x * entered_ - step_x_, 0.0, 1.0);
         }
     }
 
 private:
     static constexpr double never = std::numeric_limits<double>::infinity();
 
-    static Vec2d clamped(Vec2d p) { return {std::clamp(p.x, 0.0, 1.0), std::clamp(p.y, 0.0, 1.0)}; }
+    enum class Through { start, x, y };
+
+    // Where the line enters the current cell, in [0,1]; exact on the wall it came through.
+    Vec2d entry() const {
+        const Vec2d p{offset_.x + speed_.x * entered_ - step_x_, offset_.y + speed_.y * entered_ - step_y_};
+        return {through_ == Through::x ? (speed_.x > 0 ? 0.0 : 1.0) : std::clamp(p.x, 0.0, 1.0),
+                through_ == Through::y ? (speed_.y > 0 ? 0.0 : 1.0) : std::clamp(p.y, 0.0, 1.0)};
+    }
 
     void set_rows(int row) {
         current_row_ = row;
@@ -114,7 +118,6 @@ private:
     Vec2d speed_;
     Vec2d inverse_;
     Vec2d offset_;      // of the start, from the corner of the first cell
-    Vec2d entry_;       // where the line enters the current cell, in [0,1]; exact on the wall it came through
     int column_;        // wrapped
     int current_row_ = 0;
     const float* row_ = nullptr;
@@ -124,6 +127,7 @@ private:
     double wall_x_ = never;  // t at which the line meets the cell's far wall
     double wall_y_ = never;
     double entered_ = 0;
+    Through through_ = Through::start;
 };
 
 }  // namespace relievo

@@ -1,5 +1,7 @@
 #include "render/cpu_renderer.h"
 
+#include "techniques/shadow_bias.h"
+
 #include "core/parallel_for.h"
 
 namespace relievo {
@@ -29,17 +31,20 @@ glsl::BoundMaps declared_maps(const MapSet& maps, const Technique& technique) {
     return bound;
 }
 
-Vec3f to_light(const Light& light, Vec3f position) { return light.directional ? light.position : normalize(light.position - position); }
+Vec3f to_light(const Light& light, Vec3f position) {
+    return light.directional ? light.position : normalize(light.position - position);
+}
 
 }  // namespace
 
-Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, float zero_level, const Lighting& lighting, const Technique& technique,
-                const MarchParams& params, bool shadow, int threads) {
+Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, float zero_level, const Lighting& lighting,
+                const Technique& technique, const MarchParams& params, bool shadow, int threads) {
     Frame frame(rays.width, rays.height);
     frame.source = "cpu";
     const glsl::BoundMaps searched = declared_maps(maps, technique);
     const glsl::BoundMaps all = glsl::bind_maps(maps);
     const bool casts_shadow = shadow && technique.effects.self_shadow && !lighting.lights.empty();
+    const float bias = casts_shadow ? shadow_bias(technique, params) : 0;
     const bool has_normals = technique.shaded_normals && !maps.normal.empty();
     parallel_for(rays.height, 8, threads, [&](int begin, int end) {
         glsl::technique = technique.heightfield;
@@ -48,7 +53,8 @@ Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, fl
                 if (rays.coverage(x, y) != static_cast<std::uint8_t>(Coverage::hit)) continue;
                 const float* uv = rays.uv.at(x, y);
                 const float* view = rays.view.at(x, y);
-                const auto ray = glsl::view_ray({uv[0], uv[1]}, {view[0], view[1], view[2]}, height_scale, zero_level, rays.lod(x, y));
+                const auto ray =
+                    glsl::view_ray({uv[0], uv[1]}, {view[0], view[1], view[2]}, height_scale, zero_level, rays.lod(x, y));
                 glsl::bound_maps = searched;
                 glsl::fetch_count = 0;
                 const auto hit = technique.heightfield(ray, params);
@@ -60,7 +66,8 @@ Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, fl
                 frame.hit_height(x, y) = hit.height;
 
                 const Vec3f position(hit.uv, (hit.height - zero_level) * height_scale);
-                frame.shadow(x, y) = casts_shadow ? glsl::self_shadow(ray, hit, to_light(lighting.lights[0], position), params) : 1.0f;
+                frame.shadow(x, y) =
+                    casts_shadow ? glsl::self_shadow(ray, hit, to_light(lighting.lights[0], position), bias, params) : 1.0f;
 
                 glsl::bound_maps = all;
                 const Vec3f normal = has_normals ? glsl::normal_at(hit.uv, ray.lod) : Vec3f{0, 0, 1};

@@ -16,17 +16,25 @@ vk::raii::Sampler sampler(const gpu::Device& device, vk::Filter filter, vk::Samp
                                                    .maxLod = VK_LOD_CLAMP_NONE}};
 }
 
-vk::raii::DescriptorSetLayout set_layout(const gpu::Device& device, std::initializer_list<vk::DescriptorType> types, vk::ShaderStageFlags stages) {
+vk::raii::DescriptorSetLayout set_layout(const gpu::Device& device, std::initializer_list<vk::DescriptorType> types,
+                                         vk::ShaderStageFlags stages) {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     for (const vk::DescriptorType type : types)
-        bindings.push_back({.binding = static_cast<std::uint32_t>(bindings.size()), .descriptorType = type, .descriptorCount = 1, .stageFlags = stages});
-    return {device.handle(), vk::DescriptorSetLayoutCreateInfo{.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()}};
+        bindings.push_back({.binding = static_cast<std::uint32_t>(bindings.size()),
+                            .descriptorType = type,
+                            .descriptorCount = 1,
+                            .stageFlags = stages});
+    return {device.handle(), vk::DescriptorSetLayoutCreateInfo{.bindingCount = static_cast<std::uint32_t>(bindings.size()),
+                                                               .pBindings = bindings.data()}};
 }
 
-vk::raii::PipelineLayout pipeline_layout(const gpu::Device& device, vk::DescriptorSetLayout set0, vk::DescriptorSetLayout set1, vk::ShaderStageFlags stages) {
+vk::raii::PipelineLayout pipeline_layout(const gpu::Device& device, vk::DescriptorSetLayout set0, vk::DescriptorSetLayout set1,
+                                         vk::ShaderStageFlags stages) {
     const vk::DescriptorSetLayout sets[] = {set0, set1};
     const vk::PushConstantRange draw{.stageFlags = stages, .offset = 0, .size = sizeof(DrawUniforms)};
-    return {device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 2, .pSetLayouts = sets, .pushConstantRangeCount = 1, .pPushConstantRanges = &draw}};
+    return {device.handle(),
+            vk::PipelineLayoutCreateInfo{
+                .setLayoutCount = 2, .pSetLayouts = sets, .pushConstantRangeCount = 1, .pPushConstantRanges = &draw}};
 }
 
 constexpr auto image = vk::DescriptorType::eCombinedImageSampler;
@@ -47,11 +55,12 @@ FamilyLayout::FamilyLayout(const gpu::Device& device)
       draw_pipeline(pipeline_layout(device, *maps, *scene, fragment)),
       cast_pipeline(pipeline_layout(device, *maps, *cast, compute)) {}
 
-DescriptorSet make_descriptor_set(const gpu::Device& device, const vk::raii::DescriptorSetLayout& layout, std::initializer_list<vk::DescriptorPoolSize> sizes) {
+DescriptorSet make_descriptor_set(const gpu::Device& device, const vk::raii::DescriptorSetLayout& layout,
+                                  std::initializer_list<vk::DescriptorPoolSize> sizes) {
     DescriptorSet set;
-    set.pool = vk::raii::DescriptorPool(device.handle(), vk::DescriptorPoolCreateInfo{.maxSets = 1,
-                                                                                     .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
-                                                                                     .pPoolSizes = sizes.begin()});
+    set.pool = vk::raii::DescriptorPool(
+        device.handle(), vk::DescriptorPoolCreateInfo{
+                             .maxSets = 1, .poolSizeCount = static_cast<std::uint32_t>(sizes.size()), .pPoolSizes = sizes.begin()});
     // Freed with the pool: the plain handle, not the RAII one, which would free it one by one.
     const vk::DescriptorSetAllocateInfo one{.descriptorPool = *set.pool, .descriptorSetCount = 1, .pSetLayouts = &*layout};
     set.handle = (*device.handle()).allocateDescriptorSets(one, *device.handle().getDispatcher()).front();

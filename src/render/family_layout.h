@@ -12,7 +12,7 @@ struct DrawUniforms {
     glsl::MarchParams march;
     glsl::ReliefUniforms relief;
 };
-static_assert(sizeof(DrawUniforms) == 7 * 4 && offsetof(DrawUniforms, relief) == 5 * 4);
+static_assert(sizeof(DrawUniforms) == 8 * 4 && offsetof(DrawUniforms, relief) == 5 * 4);
 
 struct FamilyLayout {
     explicit FamilyLayout(const gpu::Device& device);
@@ -32,6 +32,7 @@ struct DescriptorSet {
     vk::raii::DescriptorPool pool = nullptr;
     vk::DescriptorSet handle;
 };
-DescriptorSet make_descriptor_set(const gpu::Device& device, const vk::raii::DescriptorSetLayout& layout, std::initializer_list<vk::DescriptorPoolSize> sizes);
+DescriptorSet make_descriptor_set(const gpu::Device& device, const vk::raii::DescriptorSetLayout& layout,
+                                  std::initializer_list<vk::DescriptorPoolSize> sizes);
 
 }  // namespace relievo

@@ -18,11 +18,13 @@ vk::Extent2D chain_extent(const gpu::Device& device, const std::vector<Image<T>>
     const int height = chain.front().height;
     if (width > limit || height > limit)
         throw Error("upload", std::string("the ") + name + " map",
-                    "it is " + std::to_string(width) + " x " + std::to_string(height) + " and " + device.info().name + " takes at most " + std::to_string(limit),
+                    "it is " + std::to_string(width) + " x " + std::to_string(height) + " and " + device.info().name +
+                        " takes at most " + std::to_string(limit),
                     "scale the material down");
     for (std::size_t k = 0; k < chain.size(); ++k)
         if (chain[k].width != std::max(1, width >> k) || chain[k].height != std::max(1, height >> k))
-            throw Error("upload", std::string("the ") + name + " map", "its level " + std::to_string(k) + " is not half the level before it");
+            throw Error("upload", std::string("the ") + name + " map",
+                        "its level " + std::to_string(k) + " is not half the level before it");
     return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
 }
 
@@ -31,23 +33,25 @@ template <class T>
 gpu::Image plain_texture(const gpu::Device& device, vk::Format format, const std::vector<Image<T>>& chain, const char* name) {
     const auto extent = chain_extent(device, chain, name);
     const std::size_t texel = static_cast<std::size_t>(chain.front().channels) * sizeof(T);
-    return gpu::make_texture(device, format, extent, static_cast<std::uint32_t>(chain.size()), texel, [&](int level, int y, std::byte* out) {
-        const Image<T>& image = chain[static_cast<std::size_t>(level)];
-        std::memcpy(out, image.at(0, y), static_cast<std::size_t>(image.width) * texel);
-    });
+    return gpu::make_texture(device, format, extent, static_cast<std::uint32_t>(chain.size()), texel,
+                             [&](int level, int y, std::byte* out) {
+                                 const Image<T>& image = chain[static_cast<std::size_t>(level)];
+                                 std::memcpy(out, image.at(0, y), static_cast<std::size_t>(image.width) * texel);
+                             });
 }
 
 // As half floats: normals need sign and about three digits, and 32 bits would cost a quarter of a gigabyte at 4096^2.
 gpu::Image normal_texture(const gpu::Device& device, const std::vector<ImageF>& chain) {
     const auto extent = chain_extent(device, chain, "normal");
-    return gpu::make_texture(device, vk::Format::eR16G16B16A16Sfloat, extent, static_cast<std::uint32_t>(chain.size()), 8, [&](int level, int y, std::byte* out) {
-        const ImageF& image = chain[static_cast<std::size_t>(level)];
-        for (int x = 0; x < image.width; ++x) {
-            const float* n = image.at(x, y);
-            const std::uint16_t texel[4] = {gpu::to_half(n[0]), gpu::to_half(n[1]), gpu::to_half(n[2]), 0};
-            std::memcpy(out + 8 * x, texel, 8);
-        }
-    });
+    return gpu::make_texture(device, vk::Format::eR16G16B16A16Sfloat, extent, static_cast<std::uint32_t>(chain.size()), 8,
+                             [&](int level, int y, std::byte* out) {
+                                 const ImageF& image = chain[static_cast<std::size_t>(level)];
+                                 for (int x = 0; x < image.width; ++x) {
+                                     const float* n = image.at(x, y);
+                                     const std::uint16_t texel[4] = {gpu::to_half(n[0]), gpu::to_half(n[1]), gpu::to_half(n[2]), 0};
+                                     std::memcpy(out + 8 * x, texel, 8);
+                                 }
+                             });
 }
 
 template <class T>
@@ -62,34 +66,41 @@ template <class T>
 gpu::Image single_texture(const gpu::Device& device, vk::Format format, const Image<T>& image, const char* name) {
     const auto limit = static_cast<int>(device.physical().getProperties().limits.maxImageDimension2D);
     if (image.width > limit || image.height > limit)
-        throw Error("upload", std::string("the ") + name + " map", "it is larger than the " + std::to_string(limit) + " texels " + device.info().name + " takes",
+        throw Error("upload", std::string("the ") + name + " map",
+                    "it is larger than the " + std::to_string(limit) + " texels " + device.info().name + " takes",
                     "scale the material down");
     const std::size_t texel = static_cast<std::size_t>(image.channels) * sizeof(T);
-    return gpu::make_texture(device, format, {static_cast<std::uint32_t>(image.width), static_cast<std::uint32_t>(image.height)}, 1, texel,
-                             [&](int, int y, std::byte* out) { std::memcpy(out, image.at(0, y), static_cast<std::size_t>(image.width) * texel); });
+    return gpu::make_texture(
+        device, format, {static_cast<std::uint32_t>(image.width), static_cast<std::uint32_t>(image.height)}, 1, texel,
+        [&](int, int y, std::byte* out) { std::memcpy(out, image.at(0, y), static_cast<std::size_t>(image.width) * texel); });
 }
 
 }  // namespace
 
-GpuMaterial::GpuMaterial(const gpu::Device& device, const FamilyLayout& layout, const MapSet& maps, float height_scale, float zero_level)
+GpuMaterial::GpuMaterial(const gpu::Device& device, const FamilyLayout& layout, const MapSet& maps, float height_scale,
+                         float zero_level)
     : height_scale_(height_scale), zero_level_(zero_level) {
     const auto mark = [&](Map map, bool there) { return has_[static_cast<std::size_t>(map)] = there; };
     using F = vk::Format;
     height_ = mark(Map::height, !maps.height.empty()) ? single_texture(device, F::eR32Sfloat, maps.height.texels, "height")
                                                       : plain_texture(device, F::eR32Sfloat, one_texel<float>({0}), "height");
-    normal_ = mark(Map::normal, !maps.normal.empty()) ? normal_texture(device, maps.normal) : normal_texture(device, one_texel<float>({0, 0, 1}));
+    normal_ = mark(Map::normal, !maps.normal.empty()) ? normal_texture(device, maps.normal)
+                                                      : normal_texture(device, one_texel<float>({0, 0, 1}));
     // 188 is half the light, encoded.
-    colour_ = mark(Map::colour, !maps.colour.empty()) ? plain_texture(device, F::eR8G8B8A8Srgb, maps.colour, "colour")
-                                                      : plain_texture(device, F::eR8G8B8A8Srgb, one_texel<std::uint8_t>({188, 188, 188, 255}), "colour");
-    pyramid_ = mark(Map::max_pyramid, !maps.max_pyramid.levels.empty()) ? plain_texture(device, F::eR32Sfloat, maps.max_pyramid.levels, "max_pyramid")
-                                                                        : plain_texture(device, F::eR32Sfloat, one_texel<float>({1}), "max_pyramid");
+    colour_ = mark(Map::colour, !maps.colour.empty())
+                  ? plain_texture(device, F::eR8G8B8A8Srgb, maps.colour, "colour")
+                  : plain_texture(device, F::eR8G8B8A8Srgb, one_texel<std::uint8_t>({188, 188, 188, 255}), "colour");
+    pyramid_ = mark(Map::max_pyramid, !maps.max_pyramid.levels.empty())
+                   ? plain_texture(device, F::eR32Sfloat, maps.max_pyramid.levels, "max_pyramid")
+                   : plain_texture(device, F::eR32Sfloat, one_texel<float>({1}), "max_pyramid");
     cone_ = mark(Map::cone, !maps.cone.empty()) ? single_texture(device, F::eR32G32Sfloat, maps.cone, "cone")
                                                 : plain_texture(device, F::eR32G32Sfloat, one_texel<float>({0, 0}), "cone");
 
     set_ = make_descriptor_set(device, layout.maps, {{vk::DescriptorType::eCombinedImageSampler, map_count}});
-    const vk::Sampler samplers[map_count] = {*layout.height_sampler, *layout.trilinear_sampler, *layout.trilinear_sampler, *layout.nearest_sampler,
-                                             *layout.height_sampler};
-    const gpu::Image* images[map_count] = {&height_, &normal_, &colour_, &pyramid_, &cone_};  // the order of enum Map and of the bindings
+    const vk::Sampler samplers[map_count] = {*layout.height_sampler, *layout.trilinear_sampler, *layout.trilinear_sampler,
+                                             *layout.nearest_sampler, *layout.height_sampler};
+    const gpu::Image* images[map_count] = {&height_, &normal_, &colour_, &pyramid_,
+                                           &cone_};  // the order of enum Map and of the bindings
     vk::DescriptorImageInfo infos[map_count];
     vk::WriteDescriptorSet writes[map_count];
     for (std::uint32_t i = 0; i < map_count; ++i) {

@@ -1,6 +1,7 @@
 #include "render/gpu_renderer.h"
 
 #include "core/error.h"
+#include "gpu/stopwatch.h"
 #include "render/heightfield_pass.h"
 
 #include <algorithm>
@@ -14,6 +15,24 @@ using F = vk::Format;
 const FragmentHost shade_host{"shade.frag", {F::eR32G32B32A32Sfloat}};
 const FragmentHost record_host{"record.frag", {F::eR32G32B32A32Sfloat, F::eR32G32B32A32Sfloat, F::eR32Sfloat}};
 const FragmentHost rays_host{"rays.frag", {F::eR32G32B32A32Sfloat, F::eR32G32B32A32Sfloat}};
+
+// The planes that record.frag writes, as a Frame without colour.
+Frame frame_of(const std::vector<const float*>& facts, int width, int height) {
+    Frame frame(width, height);
+    for (std::size_t i = 0; i < frame.coverage.texels.size(); ++i) {
+        const float* a = facts[0] + 4 * i;
+        const float* b = facts[1] + 4 * i;
+        frame.coverage.texels[i] = static_cast<std::uint8_t>(a[3]);
+        if (frame.coverage.texels[i] != static_cast<std::uint8_t>(Coverage::hit)) continue;
+        frame.hit_uv.texels[2 * i] = a[0];
+        frame.hit_uv.texels[2 * i + 1] = a[1];
+        frame.hit_height.texels[i] = a[2];
+        std::copy_n(b, 3, frame.normal.texels.begin() + static_cast<std::ptrdiff_t>(3 * i));
+        frame.shadow.texels[i] = b[3];
+        frame.fetches.texels[i] = facts[2][i];
+    }
+    return frame;
+}
 
 }  // namespace
 
@@ -33,17 +52,21 @@ struct GpuRenderer::State {
                         device.info().name + " draws 1 to " + std::to_string(limit) + " pixels a side");
         const vk::Extent2D extent{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
         auto it = targets.find(&host);
-        if (it == targets.end() || it->second.extent != extent) it = targets.insert_or_assign(&host, make_targets(device, host, width, height)).first;
+        if (it == targets.end() || it->second.extent != extent)
+            it = targets.insert_or_assign(&host, make_targets(device, host, width, height)).first;
         return it->second;
     }
 
-    // Draws and reads every target back, four floats or one a pixel; the spans live until the next draw of the same host.
-    std::vector<const float*> draw(const HeightFieldPass::Draw& what, int width, int height) {
+    // Draws and, if asked, reads every target back: four floats or one a pixel, which live until the next draw of the same host.
+    // A stopwatch measures the pass alone, without the reading.
+    std::vector<const float*> draw(const HeightFieldPass::Draw& what, int width, int height, bool read = true,
+                                   const gpu::Stopwatch* stopwatch = nullptr, double* ms = nullptr) {
         TargetSet& to = targets_of(what.host, width, height);
         if (to.read.empty())
             for (const gpu::Image& image : to.images)
-                to.read.push_back(gpu::make_buffer(device, vk::DeviceSize{to.extent.width} * to.extent.height * (image.format == F::eR32Sfloat ? 4 : 16),
-                                                   vk::BufferUsageFlagBits::eTransferDst));
+                to.read.push_back(gpu::make_buffer(
+                    device, vk::DeviceSize{to.extent.width} * to.extent.height * (image.format == F::eR32Sfloat ? 4 : 16),
+                    vk::BufferUsageFlagBits::eTransferDst));
         pass.pipeline(what);
         device.run([&](const vk::raii::CommandBuffer& commands) {
             std::vector<vk::ImageView> views;
@@ -51,12 +74,16 @@ struct GpuRenderer::State {
                 gpu::transition(commands, image, vk::ImageLayout::eUndefined, vk::ImageLayout::eColorAttachmentOptimal);
                 views.push_back(*image.view);
             }
+            if (stopwatch != nullptr) stopwatch->start(commands);
             pass.record(commands, what, views, to.extent);
-            for (std::size_t i = 0; i < to.images.size(); ++i) {
-                gpu::transition(commands, to.images[i], vk::ImageLayout::eColorAttachmentOptimal, vk::ImageLayout::eTransferSrcOptimal);
+            if (stopwatch != nullptr) stopwatch->stop(commands);
+            for (std::size_t i = 0; read && i < to.images.size(); ++i) {
+                gpu::transition(commands, to.images[i], vk::ImageLayout::eColorAttachmentOptimal,
+                                vk::ImageLayout::eTransferSrcOptimal);
                 gpu::read_back(commands, to.images[i], to.read[i]);
             }
         });
+        if (stopwatch != nullptr) *ms = stopwatch->elapsed_ms();
         std::vector<const float*> planes;
         for (const gpu::Buffer& buffer : to.read) planes.push_back(buffer.as<const float>());
         return planes;
@@ -104,72 +131,54 @@ RayField GpuRenderer::rays(const Stage& stage, const GpuMaterial& material, int 
 
 Frame GpuRenderer::draw(const Stage& stage, const GpuMaterial& material, const Technique& technique, const MarchParams& params,
                         const PictureSettings& settings) {
-    return gpu::vulkan_errors_as("draw", "a picture on " + device_name(), [&] {
-        const int width = settings.width;
-        const int height = settings.height;
-        const bool shadow = settings.shadow == ShadowMode::hard;
-        assert(!settings.offsets.empty());
-        state_->scene.update(stage, width, height, {0, 0});
-        const auto facts = state_->draw({.host = record_host, .technique = &technique, .params = params, .shadow = shadow, .material = material, .scene = state_->scene},
-                                        width, height);
-        Frame frame(width, height);
-        frame.source = "gpu: " + device_name();
-        const std::size_t pixels = frame.coverage.texels.size();
-        for (std::size_t i = 0; i < pixels; ++i) {
-            const float* a = facts[0] + 4 * i;
-            const float* b = facts[1] + 4 * i;
-            frame.coverage.texels[i] = static_cast<std::uint8_t>(a[3]);
-            if (frame.coverage.texels[i] != static_cast<std::uint8_t>(Coverage::hit)) continue;
-            frame.hit_uv.texels[2 * i] = a[0];
-            frame.hit_uv.texels[2 * i + 1] = a[1];
-            frame.hit_height.texels[i] = a[2];
-            std::copy_n(b, 3, frame.normal.texels.begin() + static_cast<std::ptrdiff_t>(3 * i));
-            frame.shadow.texels[i] = b[3];
-            frame.fetches.texels[i] = facts[2][i];
-        }
-        for (const Vec2f offset : settings.offsets) {
-            state_->scene.update(stage, width, height, offset);
-            const float* colour = state_->draw({.host = shade_host, .technique = &technique, .params = params, .shadow = shadow, .material = material,
-                                                .scene = state_->scene, .background = stage.lighting.background},
-                                               width, height)[0];
-            for (std::size_t i = 0; i < pixels; ++i)
-                for (std::size_t c = 0; c < 3; ++c) frame.colour.texels[3 * i + c] += colour[4 * i + c];
-        }
-        const float share = 1.0f / static_cast<float>(settings.offsets.size());
-        for (float& c : frame.colour.texels) c *= share;
-        return frame;
-    });
+    const Timed one[] = {{&technique, params}};
+    return std::move(draw_timed(stage, material, one, settings, 0).front());
 }
 
-std::vector<std::vector<double>> GpuRenderer::time(const Stage& stage, const GpuMaterial& material, std::span<const Timed> timed,
-                                                   const PictureSettings& settings, int runs) {
-    return gpu::vulkan_errors_as("time", "pictures on " + device_name(), [&] {
+std::vector<Frame> GpuRenderer::draw_timed(const Stage& stage, const GpuMaterial& material, std::span<const Timed> timed,
+                                           const PictureSettings& settings, int runs) {
+    return gpu::vulkan_errors_as("draw", "pictures on " + device_name(), [&] {
         State& s = *state_;
-        TargetSet& to = s.targets_of(shade_host, settings.width, settings.height);
-        const vk::ImageView view = *to.images[0].view;
-        const vk::raii::QueryPool stamps(s.device.handle(), vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp, .queryCount = 2});
-        s.scene.update(stage, settings.width, settings.height, settings.offsets.empty() ? Vec2f{} : settings.offsets[0]);
-        std::vector<std::vector<double>> times(timed.size());
-        for (int run = -1; run < runs; ++run) {  // run -1 is not measured: it makes pipelines and warms caches
+        const int width = settings.width;
+        const int height = settings.height;
+        assert(!settings.offsets.empty());
+        const auto draw_of = [&](const FragmentHost& host, const Timed& t) {
+            return HeightFieldPass::Draw{.host = host,
+                                         .technique = t.technique,
+                                         .params = t.params,
+                                         .shadow = settings.shadow == ShadowMode::hard,
+                                         .material = material,
+                                         .scene = s.scene,
+                                         .background = stage.lighting.background};
+        };
+
+        std::vector<Frame> frames;
+        s.scene.update(stage, width, height, {0, 0});
+        for (const Timed& t : timed) {
+            frames.push_back(frame_of(s.draw(draw_of(record_host, t), width, height), width, height));
+            frames.back().source = "gpu: " + device_name();
+        }
+
+        // The timed runs are the picture's samples too, as far as there are that many: a sample shifts by less than a pixel and
+        // costs the same. Round 0 is not timed; it makes pipelines and warms caches.
+        const gpu::Stopwatch stopwatch(s.device);
+        const int samples = static_cast<int>(settings.offsets.size());
+        const float share = 1.0f / static_cast<float>(samples);
+        for (int round = 0; round < std::max(runs + 1, samples); ++round) {
+            const bool is_sample = round < samples;
+            s.scene.update(stage, width, height, settings.offsets[static_cast<std::size_t>(is_sample ? round : 0)]);
             for (std::size_t t = 0; t < timed.size(); ++t) {
-                const HeightFieldPass::Draw draw{.host = shade_host, .technique = timed[t].technique, .params = timed[t].params,
-                                                 .shadow = settings.shadow == ShadowMode::hard, .material = material, .scene = s.scene,
-                                                 .background = stage.lighting.background};
-                s.pass.pipeline(draw);
-                s.device.run([&](const vk::raii::CommandBuffer& commands) {
-                    commands.resetQueryPool(*stamps, 0, 2);
-                    gpu::transition(commands, to.images[0], vk::ImageLayout::eUndefined, vk::ImageLayout::eColorAttachmentOptimal);
-                    commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *stamps, 0);
-                    s.pass.record(commands, draw, {&view, 1}, to.extent);
-                    commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *stamps, 1);
-                });
-                const auto [result, ticks] = stamps.getResults<std::uint64_t>(0, 2, 2 * sizeof(std::uint64_t), sizeof(std::uint64_t),
-                                                                              vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
-                if (result != vk::Result::eSuccess) throw Error("time", "a picture on " + device_name(), vk::to_string(result));
-                if (run >= 0) times[t].push_back(static_cast<double>(ticks[1] - ticks[0]) * s.device.nanoseconds_per_tick() * 1e-6);
+                double ms = 0;
+                const auto planes = s.draw(draw_of(shade_host, timed[t]), width, height, is_sample, &stopwatch, &ms);
+                if (round > 0 && round <= runs) frames[t].gpu_ms.push_back(ms);
+                if (!is_sample) continue;
+                std::vector<float>& colour = frames[t].colour.texels;
+                const float* sample = planes[0];
+                for (std::size_t i = 0; i < colour.size() / 3; ++i)
+                    for (std::size_t c = 0; c < 3; ++c) colour[3 * i + c] += share * sample[4 * i + c];
             }
         }
-        return times;
+        return frames;
     });
 }
 
@@ -183,24 +192,31 @@ std::vector<GpuRenderer::Cast> GpuRenderer::cast(const GpuMaterial& material, co
         constexpr std::size_t most = std::size_t{1} << 20;
         for (std::size_t begin = 0; begin < rays.size(); begin += most) {
             const auto part = rays.subspan(begin, std::min(most, rays.size() - begin));
-            const auto in = gpu::make_buffer(s.device, part.size() * sizeof(glsl::CastRay), vk::BufferUsageFlagBits::eStorageBuffer);
-            const auto out = gpu::make_buffer(s.device, part.size() * sizeof(glsl::CastHit), vk::BufferUsageFlagBits::eStorageBuffer);
+            const auto in =
+                gpu::make_buffer(s.device, part.size() * sizeof(glsl::CastRay), vk::BufferUsageFlagBits::eStorageBuffer);
+            const auto out =
+                gpu::make_buffer(s.device, part.size() * sizeof(glsl::CastHit), vk::BufferUsageFlagBits::eStorageBuffer);
             for (std::size_t i = 0; i < part.size(); ++i) {
                 const glsl::SurfaceRay& r = part[i];
-                in.as<glsl::CastRay>()[i] = {r.uv.x, r.uv.y, r.uv_per_height.x, r.uv_per_height.y, r.view.x, r.view.y, r.view.z,
-                                             r.height_scale, r.zero_level, r.z_start, r.z_end, r.lod};
+                in.as<glsl::CastRay>()[i] = {r.uv.x,   r.uv.y,         r.uv_per_height.x, r.uv_per_height.y, r.view.x, r.view.y,
+                                             r.view.z, r.height_scale, r.zero_level,      r.z_start,         r.z_end,  r.lod};
             }
             const auto set = make_descriptor_set(s.device, s.pass.layout().cast, {{vk::DescriptorType::eStorageBuffer, 2}});
-            const vk::DescriptorBufferInfo buffers[] = {{.buffer = *in.handle, .range = VK_WHOLE_SIZE}, {.buffer = *out.handle, .range = VK_WHOLE_SIZE}};
-            s.device.handle().updateDescriptorSets(
-                vk::WriteDescriptorSet{.dstSet = set.handle, .dstBinding = 0, .descriptorCount = 2, .descriptorType = vk::DescriptorType::eStorageBuffer, .pBufferInfo = buffers},
-                {});
+            const vk::DescriptorBufferInfo buffers[] = {{.buffer = *in.handle, .range = VK_WHOLE_SIZE},
+                                                        {.buffer = *out.handle, .range = VK_WHOLE_SIZE}};
+            s.device.handle().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set.handle,
+                                                                          .dstBinding = 0,
+                                                                          .descriptorCount = 2,
+                                                                          .descriptorType = vk::DescriptorType::eStorageBuffer,
+                                                                          .pBufferInfo = buffers},
+                                                   {});
             const vk::Pipeline pipeline = s.pass.cast_pipeline(technique);
             s.device.run([&](const vk::raii::CommandBuffer& commands) {
                 const auto& layout = *s.pass.layout().cast_pipeline;
                 commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline);
                 commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, layout, 0, {material.maps(), set.handle}, {});
-                commands.pushConstants<DrawUniforms>(layout, vk::ShaderStageFlagBits::eCompute, 0, DrawUniforms{params, {material.height_scale(), material.zero_level()}});
+                commands.pushConstants<DrawUniforms>(layout, vk::ShaderStageFlagBits::eCompute, 0,
+                                                     DrawUniforms{params, {material.height_scale(), material.zero_level(), 0}});
                 commands.dispatch(static_cast<std::uint32_t>((part.size() + 63) / 64), 1, 1);
                 gpu::full_barrier(commands);
             });

@@ -32,7 +32,8 @@ struct PictureSettings {
     int width = 0;
     int height = 0;
     ShadowMode shadow = ShadowMode::hard;  // cast only by techniques that claim self_shadow
-    std::vector<Vec2f> offsets{{0, 0}};    // samples per pixel, offset from its centre in pixels; colour averages them in linear light
+    std::vector<Vec2f> offsets{
+        {0, 0}};  // samples per pixel, offset from its centre in pixels; colour averages them in linear light
 };
 
 class GpuRenderer {
@@ -56,14 +57,14 @@ public:
     Frame draw(const Stage& stage, const GpuMaterial& material, const Technique& technique, const MarchParams& params,
                const PictureSettings& settings);
 
-    // GPU milliseconds of the colour pass (one sample per pixel, nothing else written): runs x techniques, interleaved
-    // A B C ... A B C ..., after one unmeasured round. Result: one list of `runs` times per technique.
+    // The same for several techniques, with Frame::gpu_ms: milliseconds of the colour pass (one sample per pixel, nothing else
+    // written), runs x techniques, interleaved A B C ... A B C ..., after one unmeasured round.
     struct Timed {
         const Technique* technique;
         MarchParams params;
     };
-    std::vector<std::vector<double>> time(const Stage& stage, const GpuMaterial& material, std::span<const Timed> timed,
-                                          const PictureSettings& settings, int runs);
+    std::vector<Frame> draw_timed(const Stage& stage, const GpuMaterial& material, std::span<const Timed> timed,
+                                  const PictureSettings& settings, int runs);
 
     // The search alone on explicit rays, in a compute shader: hits and fetch counts in the order of the rays.
     struct Cast {

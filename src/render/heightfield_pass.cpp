@@ -1,5 +1,7 @@
 #include "render/heightfield_pass.h"
 
+#include "techniques/shadow_bias.h"
+
 #include "gpu/pipeline.h"
 #include "render/programs.h"
 
@@ -44,11 +46,13 @@ vk::Pipeline HeightFieldPass::cast_pipeline(const Technique& technique) {
     const Key key{"cast.comp", std::string(technique.id), {}, {}};
     auto it = pipelines_.find(key);
     if (it == pipelines_.end())
-        it = pipelines_.emplace(key, gpu::make_pipeline(device_, *layout_.cast_pipeline, words_of("cast.comp", technique.id))).first;
+        it =
+            pipelines_.emplace(key, gpu::make_pipeline(device_, *layout_.cast_pipeline, words_of("cast.comp", technique.id))).first;
     return *it->second;
 }
 
-void HeightFieldPass::record(const vk::raii::CommandBuffer& commands, const Draw& draw, std::span<const vk::ImageView> targets, vk::Extent2D extent) {
+void HeightFieldPass::record(const vk::raii::CommandBuffer& commands, const Draw& draw, std::span<const vk::ImageView> targets,
+                             vk::Extent2D extent) {
     assert(targets.size() == draw.host.targets.size());
     std::vector<vk::RenderingAttachmentInfo> attachments;
     for (const vk::ImageView view : targets) {
@@ -63,12 +67,17 @@ void HeightFieldPass::record(const vk::raii::CommandBuffer& commands, const Draw
     }
     const vk::Rect2D area{{0, 0}, extent};
     const vk::Pipeline drawn = pipeline(draw);
-    commands.beginRendering({.renderArea = area, .layerCount = 1, .colorAttachmentCount = static_cast<std::uint32_t>(attachments.size()), .pColorAttachments = attachments.data()});
+    commands.beginRendering({.renderArea = area,
+                             .layerCount = 1,
+                             .colorAttachmentCount = static_cast<std::uint32_t>(attachments.size()),
+                             .pColorAttachments = attachments.data()});
     commands.setViewport(0, vk::Viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1});
     commands.setScissor(0, area);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, drawn);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_.draw_pipeline, 0, {draw.material.maps(), draw.scene.set()}, {});
-    const DrawUniforms uniforms{draw.params, {draw.material.height_scale(), draw.material.zero_level()}};
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_.draw_pipeline, 0,
+                                {draw.material.maps(), draw.scene.set()}, {});
+    const DrawUniforms uniforms{draw.params, {draw.material.height_scale(), draw.material.zero_level(),
+                                             draw.technique != nullptr ? shadow_bias(*draw.technique, draw.params) : 0}};
     commands.pushConstants<DrawUniforms>(*layout_.draw_pipeline, vk::ShaderStageFlagBits::eFragment, 0, uniforms);
     commands.draw(4, 1, 0, 0);
     commands.endRendering();

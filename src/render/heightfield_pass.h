@@ -37,14 +37,15 @@ public:
         const FragmentHost& host;
         const Technique* technique = nullptr;  // null for a host that runs none
         MarchParams params{};
-        bool shadow = true;                    // cast by techniques that claim it
+        bool shadow = true;  // cast by techniques that claim it
         const GpuMaterial& material;
         const SceneBinding& scene;
-        Vec3f background{};                    // clear value of the first target
+        Vec3f background{};  // clear value of the first target
     };
 
     // Draws the base into views that are in the layout colour-attachment and are cleared first.
-    void record(const vk::raii::CommandBuffer& commands, const Draw& draw, std::span<const vk::ImageView> targets, vk::Extent2D extent);
+    void record(const vk::raii::CommandBuffer& commands, const Draw& draw, std::span<const vk::ImageView> targets,
+                vk::Extent2D extent);
 
     // The pipeline of a draw, so that it can be made before times are taken.
     vk::Pipeline pipeline(const Draw& draw);

@@ -17,10 +17,18 @@ glsl::SceneUniforms scene_uniforms(const Stage& stage, int width, int height, Ve
     const double scale = 1 / std::tan(stage.camera.fov_y_rad / 2);
     const Lighting& light = stage.lighting;
     return {
-        .eye_x = eye.x, .eye_y = eye.y, .eye_z = eye.z,
-        .right_x = right.x, .right_y = right.y, .right_z = right.z,
-        .up_x = up.x, .up_y = up.y, .up_z = up.z,
-        .back_x = back.x, .back_y = back.y, .back_z = back.z,
+        .eye_x = eye.x,
+        .eye_y = eye.y,
+        .eye_z = eye.z,
+        .right_x = right.x,
+        .right_y = right.y,
+        .right_z = right.z,
+        .up_x = up.x,
+        .up_y = up.y,
+        .up_z = up.z,
+        .back_x = back.x,
+        .back_y = back.y,
+        .back_z = back.z,
         .scale_x = static_cast<float>(scale * height / width),
         .scale_y = static_cast<float>(scale),
         // A sample to the right of the pixel's centre sees what a picture moved to the left shows at the centre.
@@ -28,20 +36,32 @@ glsl::SceneUniforms scene_uniforms(const Stage& stage, int width, int height, Ve
         .shift_y = -2 * offset.y / static_cast<float>(height),
         .near_z = 1e-3f,  // a thousandth of a repeat: nearer than any useful view, far enough for float
         .periods = stage.base.periods,
-        .ambient_r = light.ambient.x, .ambient_g = light.ambient.y, .ambient_b = light.ambient.z,
+        .ambient_r = light.ambient.x,
+        .ambient_g = light.ambient.y,
+        .ambient_b = light.ambient.z,
         .specular = light.specular,
         .shininess = light.shininess,
-        .background_r = light.background.x, .background_g = light.background.y, .background_b = light.background.z,
-        .padding_a = 0, .padding_b = 0,
+        .background_r = light.background.x,
+        .background_g = light.background.y,
+        .background_b = light.background.z,
+        .padding_a = 0,
+        .padding_b = 0,
     };
 }
 
 glsl::LightUniforms light_uniforms(const Light& light) {
-    return {.x = light.position.x, .y = light.position.y, .z = light.position.z,
+    return {.x = light.position.x,
+            .y = light.position.y,
+            .z = light.position.z,
             .directional = light.directional ? 1 : 0,
-            .r = light.colour.x, .g = light.colour.y, .b = light.colour.z,
-            .constant = light.constant, .linear = light.linear, .quadratic = light.quadratic,
-            .padding_a = 0, .padding_b = 0};
+            .r = light.colour.x,
+            .g = light.colour.y,
+            .b = light.colour.z,
+            .constant = light.constant,
+            .linear = light.linear,
+            .quadratic = light.quadratic,
+            .padding_a = 0,
+            .padding_b = 0};
 }
 
 // shaders/hosts/heightfield/scene.glsl's uniform block.
@@ -54,8 +74,10 @@ static_assert(offsetof(SceneBlock, first_lights) == sizeof(glsl::SceneUniforms))
 }  // namespace
 
 SceneBinding::SceneBinding(const gpu::Device& device, const FamilyLayout& layout)
-    : device_(&device), scene_(gpu::make_buffer(device, sizeof(SceneBlock), vk::BufferUsageFlagBits::eUniformBuffer)),
-      set_(make_descriptor_set(device, layout.scene, {{vk::DescriptorType::eUniformBuffer, 1}, {vk::DescriptorType::eStorageBuffer, 1}})) {
+    : device_(&device),
+      scene_(gpu::make_buffer(device, sizeof(SceneBlock), vk::BufferUsageFlagBits::eUniformBuffer)),
+      set_(make_descriptor_set(device, layout.scene,
+                               {{vk::DescriptorType::eUniformBuffer, 1}, {vk::DescriptorType::eStorageBuffer, 1}})) {
     const vk::DescriptorBufferInfo scene{.buffer = *scene_.handle, .range = VK_WHOLE_SIZE};
     device.handle().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set_.handle,
                                                                 .dstBinding = 0,

@@ -36,7 +36,7 @@ bool searches(const Row& row) {
 std::string named(const Row& row, bool with_setting) {
     std::string name = technique_title(row.technique);
     const std::string setting = with_setting ? setting_text(row.knobs) : "";
-    return setting.empty() ? name : name + " (" + setting + ")";
+    return setting.empty() ? name : name + " with " + setting;
 }
 
 std::string seen(const Row& row) {

@@ -59,7 +59,7 @@ constexpr Technique table[] = {
     {
         SHADER(parallax_offset_limiting),
         .title = "Parallax mapping with offset limiting",
-        .summary = "the parallax shift without its division by the view's cosine",
+        .summary = "shifts by the height without dividing by the view's cosine",
         .source = {"Welsh", 2004, "Parallax Mapping with Offset Limiting: A Per-Pixel Approximation of Uneven Surfaces"},
         .effects = {.motion_parallax = true},
         .maps = {Map::height},
@@ -100,7 +100,7 @@ constexpr Technique table[] = {
     {
         SHADER(relief_mapping),
         .title = "Relief mapping",
-        .summary = "a linear search to bracket the surface, bisection to find it",
+        .summary = "brackets the surface by a linear search and bisects the bracket",
         .source = {"Policarpo, Oliveira, Comba", 2005, "Real-Time Relief Mapping on Arbitrary Polygonal Surfaces"},
         .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
         .solves = {.level = true, .ramp = true, .wedge = true, .step = true},
@@ -117,7 +117,7 @@ constexpr Technique table[] = {
     {
         SHADER(parallax_slope),
         .title = "Parallax mapping with slope",
-        .summary = "the offset-limited shift, weakened where the surface is steep",
+        .summary = "weakens the offset-limited shift where the surface is steep",
         .source = {"Premecz", 2006, "Iterative Parallax Mapping with Slope Information"},
         .effects = {.motion_parallax = true},
         .maps = {Map::height, Map::normal},
@@ -144,7 +144,7 @@ constexpr Technique table[] = {
     {
         SHADER(parallax_occlusion_mapping),
         .title = "Parallax occlusion mapping",
-        .summary = "a linear search with more steps at grazing views, then one secant",
+        .summary = "takes more linear steps at grazing views, then one secant",
         .source = {"Tatarchuk", 2006, "Dynamic Parallax Occlusion Mapping with Approximate Soft Shadows"},
         .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
         .solves = {.level = true, .ramp = true, .wedge = true, .step = true},

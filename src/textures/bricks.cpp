@@ -34,11 +34,11 @@ constexpr std::array<Clay, 6> clays{{
 struct Brick {
     Clay clay;
     Vec2f half_size, shift, noise_shift;
-    float turn;          // radians, small
-    float top;           // height of the face
-    Vec2f tilt;          // rise per UV
+    float turn;  // radians, small
+    float top;   // height of the face
+    Vec2f tilt;  // rise per UV
     float lightness;
-    float wear;          // 0 sharp, 1 much chipped
+    float wear;  // 0 sharp, 1 much chipped
 };
 
 std::vector<Brick> lay(std::uint32_t seed) {
@@ -54,7 +54,8 @@ std::vector<Brick> lay(std::uint32_t seed) {
                 break;
             }
         }
-        b.half_size = {0.5f / columns - joint / 2 + dice.roll(-0.0030f, 0.0015f), 0.5f / courses - joint / 2 + dice.roll(-0.0025f, 0.0012f)};
+        b.half_size = {0.5f / columns - joint / 2 + dice.roll(-0.0030f, 0.0015f),
+                       0.5f / courses - joint / 2 + dice.roll(-0.0025f, 0.0012f)};
         b.shift = {dice.roll(-0.0025f, 0.0025f), dice.roll(-0.0015f, 0.0015f)};
         b.noise_shift = {dice.roll(), dice.roll()};
         b.turn = dice.roll(-0.012f, 0.012f);
@@ -77,7 +78,7 @@ SurfaceFunction bricks(const Detail& detail) {
     const FractalNoise grain({.cells_u = 96, .cells_v = 96, .octaves = 3, .gain = 0.8f}, detail, 4);
     const FractalNoise drag({.cells_u = 14, .cells_v = 110, .octaves = 2}, detail, 5);
     const FractalNoise weather({.cells_u = 3, .cells_v = 3, .octaves = 4, .gain = 0.55f}, detail, 6);
-    const float wall_width = std::max(0.004f, 1.5f * detail.texel_uv);
+    const float wall_width = std::max(0.004f, 1.5f * detail.sample_uv);
 
     return [=](Vec2f uv) -> SurfacePoint {
         const float y = uv.y * courses;
@@ -86,7 +87,8 @@ SurfaceFunction bricks(const Detail& detail) {
         const int column = floor_index(x);
         const Brick& b = wall[static_cast<std::size_t>(lattice_index(course, courses) * columns + lattice_index(column, columns))];
 
-        const Vec2f from_centre = Vec2f{(x - static_cast<float>(column) - 0.5f) / columns, (y - static_cast<float>(course) - 0.5f) / courses} - b.shift;
+        const Vec2f from_centre =
+            Vec2f{(x - static_cast<float>(column) - 0.5f) / columns, (y - static_cast<float>(course) - 0.5f) / courses} - b.shift;
         const Vec2f p{from_centre.x + b.turn * from_centre.y, from_centre.y - b.turn * from_centre.x};
         const Vec2f own = uv + b.noise_shift;  // every brick reads another part of the noise
 
@@ -112,7 +114,8 @@ SurfaceFunction bricks(const Detail& detail) {
         const float lump = lumps(own);
         const float drags = drag(own);
         // Few of the cells hold a pit, small ones more often than large: gas bubbles and lost grit, longer than high.
-        const Cellular pit = cellular(own + Vec2f{0.004f * wobbles, 0.003f * lump}, {.cells_u = 50, .cells_v = 75, .jitter = 0.45f, .seed = detail.seed + 77});
+        const Cellular pit = cellular(own + Vec2f{0.004f * wobbles, 0.003f * lump},
+                                      {.cells_u = 50, .cells_v = 75, .jitter = 0.45f, .seed = detail.seed + 77});
         const float lot = unit(pit.id);
         const float pit_size = lot < 0.065f ? 0.13f + 1300 * lot * lot * lot : 0.0f;
         const float hollow = pit_size > 0 ? smooth_ramp(pit_size, 0.3f * pit_size, pit.nearest + 0.10f * g) * b.wear : 0.0f;

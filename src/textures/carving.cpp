@@ -42,9 +42,12 @@ float leaf_distance(const Groove& g, Vec2f p) {
 
 float groove_distance(const Groove& g, Vec2f p) {
     switch (g.figure) {
-        case Groove::Figure::stem: return stem_distance(g, p);
-        case Groove::Figure::leaf: return leaf_distance(g, p);
-        case Groove::Figure::ring: break;
+        case Groove::Figure::stem:
+            return stem_distance(g, p);
+        case Groove::Figure::leaf:
+            return leaf_distance(g, p);
+        case Groove::Figure::ring:
+            break;
     }
     const float ring = std::max(ellipse_distance(p - g.centre, g.outer), -ellipse_distance(p - g.inner_centre, g.inner));
     return std::max(ring, g.clip_x - p.x);
@@ -57,7 +60,8 @@ Carving::Carving(std::vector<Groove> grooves) : grooves_(std::move(grooves)), ne
         for (int i = 0; i < buckets; ++i) {
             const Vec2f middle{(static_cast<float>(i) + 0.5f) / buckets - 0.5f, (static_cast<float>(j) + 0.5f) / buckets - 0.5f};
             for (std::size_t k = 0; k < grooves_.size(); ++k) {
-                if (groove_distance(grooves_[k], middle) <= margin) near_[static_cast<std::size_t>(j * buckets + i)].push_back(static_cast<std::uint16_t>(k));
+                if (groove_distance(grooves_[k], middle) <= margin)
+                    near_[static_cast<std::size_t>(j * buckets + i)].push_back(static_cast<std::uint16_t>(k));
             }
         }
     }

@@ -10,9 +10,9 @@ namespace relievo {
 
 // The section of a groove from its edge inward: a near-sheer wall, then a sloping bed (V-cut) down to a floor.
 struct Section {
-    float wall = 0.4f;   // depth of the wall, in heights
-    float slope = 0;     // depth gained per UV beyond the wall
-    float floor = 1;     // greatest depth
+    float wall = 0.4f;  // depth of the wall, in heights
+    float slope = 0;    // depth gained per UV beyond the wall
+    float floor = 1;    // greatest depth
 };
 
 // Figures in UV about the tile's centre, so that 0 is the middle.
@@ -23,12 +23,12 @@ struct Groove {
         leaf,  // between two arcs that meet in a and b, `width_a` wide (half) in the middle
     };
     Figure figure = Figure::stem;
-    Section section;
-    Vec2f a, b;
+    Section section{};
+    Vec2f a{}, b{};
     float width_a = 0, width_b = 0;
     float flare_a = 0, flare_b = 0;  // added half width at the very end
     float bracket = 0;               // length over which a flare dies out
-    Vec2f centre, outer, inner_centre, inner;
+    Vec2f centre{}, outer{}, inner_centre{}, inner{};
     float clip_x = -1;
 };
 

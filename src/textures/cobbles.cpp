@@ -94,8 +94,8 @@ SurfaceFunction cobbles(const Detail& detail) {
         float stone_height = look.top * rise + dot(look.tilt, place.offset) * saturate(2 * t) + 0.009f * g;
         if (t < 0) stone_height += 3 * t;
 
-        // Sand and grit between: grains large enough to be seen, each its own colour, on sand too fine for that. High on a stone there is
-        // none, and drawing it would cost a third of the time.
+        // Sand and grit between: grains large enough to be seen, each its own colour, on sand too fine for that. High on a stone
+        // there is none, and drawing it would cost a third of the time.
         const bool bare = stone_height > 0.68f;
         float sand_height = 0.16f + 0.07f * earth;
         Vec3f sand = mix(Vec3f{0.455f, 0.400f, 0.320f}, Vec3f{0.350f, 0.305f, 0.245f}, saturate(0.5f + 0.8f * earth));

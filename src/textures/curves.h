@@ -38,8 +38,8 @@ inline float shoulder(float t) {
 
 // cos(2 pi t) for any t of moderate size, to 4e-6, without the library: an even polynomial of degree 12 (Taylor) on half a period.
 inline float cos_turns(float t) {
-    const float r = std::abs(t - static_cast<float>(floor_index(t)) - 0.5f);       // 0 at the minimum, 1/2 at the maximum
-    const float q = std::abs(r - 0.25f) * 6.28318531f;        // distance from the zero crossing, in radians, at most pi/2
+    const float r = std::abs(t - static_cast<float>(floor_index(t)) - 0.5f);  // 0 at the minimum, 1/2 at the maximum
+    const float q = std::abs(r - 0.25f) * 6.28318531f;  // distance from the zero crossing, in radians, at most pi/2
     const float q2 = q * q;
     const float sine = q * (1 - q2 / 6 * (1 - q2 / 20 * (1 - q2 / 42 * (1 - q2 / 72 * (1 - q2 / 110)))));
     return r > 0.25f ? sine : -sine;

@@ -10,7 +10,7 @@
 namespace relievo {
 
 SurfaceFunction dunes(const Detail& detail) {
-    const FractalNoise sway({.cells_u = 2, .cells_v = 3, .octaves = 3, .gain = 0.42f}, detail, 1);
+    const FractalNoise sway({.cells_u = 2, .cells_v = 3, .octaves = 3, .gain = 0.34f}, detail, 1);
     const FractalNoise stature({.cells_u = 2, .cells_v = 2, .octaves = 2, .gain = 0.4f}, detail, 2);
     const FractalNoise gust({.cells_u = 4, .cells_v = 4, .octaves = 2, .gain = 0.5f}, detail, 3);
     const FractalNoise grain({.cells_u = 150, .cells_v = 150, .octaves = 2, .gain = 1.0f}, detail, 4);
@@ -27,13 +27,13 @@ SurfaceFunction dunes(const Detail& detail) {
         const float phase = dune_phase(uv);
         const float t = phase - static_cast<float>(floor_index(phase));
         // Windward: a concave foot, then an even rise to the brink. Lee: sand at rest at its steepest angle, with a soft toe.
-        const float windward = t * t * (2.55f - 1.10f * t) * 1.12f;
-        const float fall = 1.35f * (1 - t) / 0.36f;
+        const float windward = t * t * (2.55f - 1.10f * t) * 1.25f;
+        const float fall = 1.35f * (1 - t) / 0.38f;
         const float lee = fall * fall / (fall + 0.25f);
         const float wave = smooth_min(windward, lee, 0.09f);
         const float size = 0.78f + 0.30f * stature(uv);
 
-        const float slip = smooth_ramp(0.66f, 0.70f, t) * smooth_ramp(0.98f, 0.90f, t);
+        const float slip = smooth_ramp(0.64f, 0.69f, t) * smooth_ramp(0.98f, 0.90f, t);
         const float ripple = ripples->at(uv);
         // A slip face is too steep and too young for ripples; in hollows they are largest.
         const float strength = (1 - 0.92f * slip) * (0.75f + 0.5f * smooth_ramp(0.6f, 0.0f, wave)) * (0.8f + 0.5f * stature(uv));

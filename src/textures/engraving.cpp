@@ -15,8 +15,8 @@ namespace relievo {
 
 namespace {
 
-constexpr float panel = 0.345f;   // half edge of the tooled field
-constexpr float slab = 0.4955f;   // half edge of the slab; slabs stand a joint apart
+constexpr float panel = 0.345f;  // half edge of the tooled field
+constexpr float slab = 0.4955f;  // half edge of the slab; slabs stand a joint apart
 
 std::vector<Groove> drawing() {
     const Section letters{.wall = 0.55f, .slope = 42, .floor = 0.93f};
@@ -52,10 +52,10 @@ SurfaceFunction engraving(const Detail& detail) {
     const FractalNoise grain({.cells_u = 110, .cells_v = 110, .octaves = 3, .gain = 0.8f}, detail, 3);
     const FractalNoise chips({.cells_u = 90, .cells_v = 90, .octaves = 2, .gain = 0.6f}, detail, 4);
     const FractalNoise stroke({.cells_u = 14, .cells_v = 14, .octaves = 2, .gain = 0.6f}, detail, 5);
-    const float wall = std::max(0.0014f, 1.3f * detail.texel_uv);
+    const float wall = std::max(0.0014f, 1.3f * detail.sample_uv);
 
     return [=](Vec2f uv) -> SurfacePoint {
-        const Vec2f p = uv - Vec2f(0.5f);
+        const Vec2f p{uv.x - static_cast<float>(floor_index(uv.x)) - 0.5f, uv.y - static_cast<float>(floor_index(uv.y)) - 0.5f};
         const float clouds = cloud(uv);
         const float g = grain(uv);
         const float chip = chips(uv);

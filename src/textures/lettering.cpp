@@ -42,22 +42,32 @@ Groove bow(Vec2f centre, Vec2f outer, Vec2f inner_centre, Vec2f inner, float cli
 // look smaller than their neighbours.
 float letter(char c, std::vector<Groove>& strokes) {
     switch (c) {
-        case 'I': strokes = {stem(0.12f)}; return 0.24f;
-        case 'L': strokes = {stem(0.12f), arm(0.12f, 0.54f, thin, 0.075f)}; return 0.56f;
+        case 'I':
+            strokes = {stem(0.12f)};
+            return 0.24f;
+        case 'L':
+            strokes = {stem(0.12f), arm(0.12f, 0.54f, thin, 0.075f)};
+            return 0.56f;
         case 'E':
-            strokes = {stem(0.12f), arm(0.12f, 0.50f, 1 - thin, 0.065f), arm(0.12f, 0.43f, 0.52f, 0.055f), arm(0.12f, 0.53f, thin, 0.075f)};
+            strokes = {stem(0.12f), arm(0.12f, 0.50f, 1 - thin, 0.065f), arm(0.12f, 0.43f, 0.52f, 0.055f),
+                       arm(0.12f, 0.53f, thin, 0.075f)};
             return 0.55f;
         case 'V':
-            strokes = {stroke({0.10f, 1}, {0.405f, 0}, thick, thick * 0.85f, serif, 0), stroke({0.73f, 1}, {0.43f, 0}, thin, thin * 1.1f, serif, 0)};
+            strokes = {stroke({0.10f, 1}, {0.405f, 0}, thick, thick * 0.85f, serif, 0),
+                       stroke({0.73f, 1}, {0.43f, 0}, thin, thin * 1.1f, serif, 0)};
             return 0.82f;
-        case 'O': strokes = {bow({0.44f, 0.5f}, {0.44f, 0.515f}, {0.44f, 0.5f}, {0.305f, 0.455f}, -100)}; return 0.88f;
+        case 'O':
+            strokes = {bow({0.44f, 0.5f}, {0.44f, 0.515f}, {0.44f, 0.5f}, {0.305f, 0.455f}, -100)};
+            return 0.88f;
         case 'R':
             strokes = {stem(0.12f), stroke({0.12f, 1 - thin}, {0.29f, 1 - thin}, thin, thin, 0, 0),
                        stroke({0.12f, 0.47f + thin}, {0.29f, 0.47f + thin}, thin, thin, 0, 0),
                        bow({0.28f, 0.735f}, {0.285f, 0.265f}, {0.265f, 0.735f}, {0.185f, 0.197f}, 0.28f),
                        stroke({0.30f, 0.50f}, {0.68f, 0.0f}, thin * 1.2f, thick, 0, serif * 0.7f)};
             return 0.70f;
-        default: strokes.clear(); return 0.3f;
+        default:
+            strokes.clear();
+            return 0.3f;
     }
 }
 

@@ -17,8 +17,8 @@ constexpr Vec2f gradients[16] = {
 
 constexpr float fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
-// The gradient at column i of a hashed row, dotted with the way from there. Only four bits of hash are needed, and the upper bits of
-// a product are its well mixed ones: two multiplications do where a full scramble takes four times as long.
+// The gradient at column i of a hashed row, dotted with the way from there. Only four bits of hash are needed, and the upper bits
+// of a product are its well mixed ones: two multiplications do where a full scramble takes four times as long.
 constexpr std::uint32_t column_step = 0x9e3779b1u;
 float corner(std::uint32_t row, std::uint32_t column, float x, float y) {
     const Vec2f g = gradients[((row ^ column) * 0x85ebca6bu) >> 28];
@@ -54,10 +54,11 @@ FractalNoise::FractalNoise(FractalSpec spec, const Detail& detail, std::uint32_t
     float weight = 1;
     float sum = 0;
     for (int k = 0; k < spec.octaves; ++k, weight *= spec.gain) {
-        const Octave octave{spec.cells_u << k, spec.cells_v << k, hash(detail.seed, salt * 16u + static_cast<std::uint32_t>(k)), weight};
+        const Octave octave{spec.cells_u << k, spec.cells_v << k, hash(detail.seed, salt * 16u + static_cast<std::uint32_t>(k)),
+                            weight};
         sum += weight;
         // A cell of two texels is the raster's limit; the octave is whole from four on.
-        const float cell_texels = 1 / (static_cast<float>(std::max(octave.cells_u, octave.cells_v)) * detail.texel_uv);
+        const float cell_texels = 1 / (static_cast<float>(std::max(octave.cells_u, octave.cells_v)) * detail.sample_uv);
         const float kept = k == 0 ? std::max(ramp(2, 4, cell_texels), 1e-3f) : ramp(2, 4, cell_texels);
         if (kept <= 0) continue;
         octaves_[static_cast<std::size_t>(count_)] = octave;

@@ -1,7 +1,7 @@
 // Gradient noise on a periodic lattice and its sums of octaves.
 //
-// Perlin, "An image synthesizer", SIGGRAPH 1985; Perlin, "Improving noise", SIGGRAPH 2002 (the quintic fade 6t^5 - 15t^4 + 10t^3 and
-// gradients from a small fixed set). Lattice indices are wrapped before they are hashed, so the noise repeats exactly.
+// Perlin, "An image synthesizer", SIGGRAPH 1985; Perlin, "Improving noise", SIGGRAPH 2002 (the quintic fade 6t^5 - 15t^4 + 10t^3
+// and gradients from a small fixed set). Lattice indices are wrapped before they are hashed, so the noise repeats exactly.
 #pragma once
 
 #include "textures/surface_function.h"

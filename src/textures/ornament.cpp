@@ -82,7 +82,8 @@ std::vector<Groove> meander_frame(float inner, float outer, int keys, float widt
         const float half = 0.5f * (outer - inner);
         append(out, square_rule(block, half, width, section));
         for (const Vec2f d : {Vec2f{1, 0}, Vec2f{0, 1}, Vec2f{-1, 0}, Vec2f{0, -1}}) {
-            out.push_back(leaf(block + d * (0.08f * half), block + d * (0.74f * half), 0.19f * half, {.wall = 0.2f, .slope = 60, .floor = 0.6f}));
+            out.push_back(leaf(block + d * (0.08f * half), block + d * (0.74f * half), 0.19f * half,
+                               {.wall = 0.2f, .slope = 60, .floor = 0.6f}));
         }
     }
     return out;
@@ -93,7 +94,8 @@ std::vector<Groove> rosette(Vec2f centre, float radius, int petals, const Sectio
     for (int k = 0; k < petals; ++k) {
         const float turn = static_cast<float>(k) / static_cast<float>(petals);
         const Vec2f d{cos_turns(turn), sin_turns(turn)};
-        const Vec2f between{cos_turns(turn + 0.5f / static_cast<float>(petals)), sin_turns(turn + 0.5f / static_cast<float>(petals))};
+        const Vec2f between{cos_turns(turn + 0.5f / static_cast<float>(petals)),
+                            sin_turns(turn + 0.5f / static_cast<float>(petals))};
         // Petals nearly touch: the ridge between them is the drawing.
         const float width = radius * 2.2f / static_cast<float>(petals);
         out.push_back(leaf(centre + d * (0.40f * radius), centre + d * radius, width, section));

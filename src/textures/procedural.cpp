@@ -22,15 +22,30 @@ struct Entry {
 
 // The ids are also those of the scenes that show them, which hold each one's height_scale.
 constexpr Entry entries[] = {
-    {.material = {.id = "bricks", .title = "Brick wall", .summary = "fired clay in running bond, chipped, with raked sandy joints", .physical_size_m = 0.69f},
+    {.material = {.id = "bricks",
+                  .title = "Brick wall",
+                  .summary = "fired clay in running bond, chipped, with raked sandy joints",
+                  .physical_size_m = 0.69f},
      .surface = bricks},
-    {.material = {.id = "cobbles", .title = "Cobblestones", .summary = "river stones of many sizes, bedded in sand", .physical_size_m = 0.80f},
+    {.material = {.id = "cobbles",
+                  .title = "Cobblestones",
+                  .summary = "river stones of many sizes, bedded in sand",
+                  .physical_size_m = 0.80f},
      .surface = cobbles},
-    {.material = {.id = "spikes", .title = "Thin spikes", .summary = "iron nails of differing height through dark old planks", .physical_size_m = 0.40f},
+    {.material = {.id = "spikes",
+                  .title = "Thin spikes",
+                  .summary = "iron nails of differing height through dark old planks",
+                  .physical_size_m = 0.40f},
      .surface = spikes},
-    {.material = {.id = "engraving", .title = "Engraved stone", .summary = "lettering, meander and rosettes cut into veined limestone", .physical_size_m = 0.50f},
+    {.material = {.id = "engraving",
+                  .title = "Engraved stone",
+                  .summary = "lettering, meander and rosettes cut into veined limestone",
+                  .physical_size_m = 0.50f},
      .surface = engraving},
-    {.material = {.id = "dunes", .title = "Dunes", .summary = "wind-blown sand: long waves with slip faces, covered in ripples", .physical_size_m = 12.0f},
+    {.material = {.id = "dunes",
+                  .title = "Dunes",
+                  .summary = "wind-blown sand: long waves with slip faces, covered in ripples",
+                  .physical_size_m = 12.0f},
      .surface = dunes},
 };
 
@@ -82,14 +97,15 @@ Material procedural_material(std::string_view id, int size, std::uint32_t seed, 
     const auto* entry = std::ranges::find(entries, id, [](const Entry& e) { return e.material.id; });
     if (entry == std::end(entries)) fail_unknown(id);
     if (size < 1 || size > 16384) {
-        throw Error("make", "procedural material '" + std::string(id) + "'", "its size would be " + std::to_string(size) + " texels",
-                    "choose a size from 1 to 16384");
+        throw Error("make", "procedural material '" + std::string(id) + "'",
+                    "its size would be " + std::to_string(size) + " texels", "choose a size from 1 to 16384");
     }
 
-    const SurfaceFunction surface = entry->surface({.seed = seed, .texel_uv = 1.0f / static_cast<float>(size)});
-    // Below 512 texels the finest features (joints, pins, letters) fall between texel centres, so a texel averages several samples.
+    // Below 512 texels the finest features (joints, nails, letters) fall between texel centres, so a texel averages several
+    // samples.
     const int split = (511 + size) / size;
     const float step = 1.0f / static_cast<float>(size * split);
+    const SurfaceFunction surface = entry->surface({.seed = seed, .sample_uv = step});
 
     ImageF height(size, size, 1);
     Image8 colour(size, size, 4);

@@ -19,9 +19,10 @@ struct Core {
     Vec2f offset;   // from the stone's centre to the place
 };
 
-Core core_of(const Stone& s, Vec2f uv) {
+inline Core core_of(const Stone& s, Vec2f uv) {
     const Vec2f offset = torus_offset(s.centre, uv);
-    const Vec2f nearest = nearest_on_segment(offset, -s.half_axis, s.half_axis) - offset;
+    const float along = std::clamp(dot(offset, s.half_axis) * s.per_length, -1.0f, 1.0f);
+    const Vec2f nearest = s.half_axis * along - offset;
     const float squared = dot(nearest, nearest);
     return {squared - s.radius * s.radius, squared, nearest, offset};
 }
@@ -50,6 +51,8 @@ StonePacking::StonePacking(float largest, float smallest, std::uint32_t seed) {
             s.half_axis = direction * (radius * stretch / norm);
             s.radius = radius * (1 - 0.45f * stretch);
             s.id = dice.bits();
+            const float squared = dot(s.half_axis, s.half_axis);
+            s.per_length = squared > 0 ? 1 / squared : 0;
             bool free = true;
             for (const Stone& other : stones_) {
                 const Vec2f d = torus_offset(other.centre, s.centre);
@@ -125,9 +128,16 @@ StonePlace StonePacking::at(Vec2f uv) const {
     const std::size_t own = owner(uv);
     const Stone& stone = stones_[own];
     const Core mine = core_of(stone, uv);
+    const float rounding = corner_rounding * stone.radius;
     float inside = stone.radius;
     for (const std::uint16_t k : neighbours_[own]) {
-        inside = smooth_min(inside, border_distance(mine, core_of(stones_[k], uv)), corner_rounding * stone.radius);
+        const Core other = core_of(stones_[k], uv);
+        // Most neighbours are too far to count; that is seen without a root or a division.
+        const Vec2f across = other.nearest - mine.nearest;
+        const float rise = other.power - mine.power;
+        const float horizon = 2 * (inside + rounding);
+        if (rise * rise >= horizon * horizon * dot(across, across)) continue;
+        inside = smooth_min(inside, border_distance(mine, other), rounding);
     }
     return {static_cast<int>(own), inside, std::sqrt(mine.squared), mine.offset};
 }

@@ -1,7 +1,7 @@
 // Stones of many sizes laid side by side on a torus, and the cell of each.
 //
-// Cells are those of a power diagram (Aurenhammer, "Power diagrams", SIAM J. Comput. 1987): a large stone pushes the border away from
-// itself. Each site is a short segment instead of a point, so stones are longer than wide.
+// Cells are those of a power diagram (Aurenhammer, "Power diagrams", SIAM J. Comput. 1987): a large stone pushes the border away
+// from itself. Each site is a short segment instead of a point, so stones are longer than wide.
 #pragma once
 
 #include "core/vec.h"
@@ -16,6 +16,7 @@ struct Stone {
     Vec2f centre;
     Vec2f half_axis;   // from the centre to one end of its core segment
     float radius;      // UV
+    float per_length;  // 1 / squared length of half_axis; 0 for a round stone
     std::uint32_t id;  // random bits of its own
 };
 

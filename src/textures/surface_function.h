@@ -8,11 +8,11 @@
 
 namespace relievo {
 
-// How a material is asked for. Features have their size in UV; the texel only says where fine noise must end and how sheer a
-// wall may be drawn.
+// How a material is asked for. Features have their size in UV; the spacing of samples only says where fine noise must end and how
+// sheer a wall may be drawn.
 struct Detail {
     std::uint32_t seed = 1;
-    float texel_uv = 1.0f / 1024;  // width of a texel in UV
+    float sample_uv = 1.0f / 1024;  // UV between samples: a texel's width, or less where a texel averages several
 };
 
 struct SurfacePoint {

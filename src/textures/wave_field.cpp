@@ -16,7 +16,8 @@ WaveField::WaveField(int cells, const std::function<float(Vec2f)>& phase, float 
             const Vec2f uv = (Vec2f{static_cast<float>(i), static_cast<float>(j)} + w.centre) * cell;
             const float e = 0.25f * cell;
             // Central differences of the phase, in turns per cell.
-            w.wave = Vec2f{phase(uv + Vec2f{e, 0}) - phase(uv - Vec2f{e, 0}), phase(uv + Vec2f{0, e}) - phase(uv - Vec2f{0, e})} * 2.0f;
+            w.wave =
+                Vec2f{phase(uv + Vec2f{e, 0}) - phase(uv - Vec2f{e, 0}), phase(uv + Vec2f{0, e}) - phase(uv - Vec2f{0, e})} * 2.0f;
             w.phase = phase(uv) + dice.roll(-disorder, disorder);
             wavelets_.push_back(w);
         }

@@ -1,8 +1,8 @@
 // A train of waves that follows a given phase but breaks and forks like ripples do: a sum of short wavelets.
 //
-// Sparse convolution of a cosine under a window, after Lagae et al., "Procedural noise using sparse Gabor convolution", SIGGRAPH 2009
-// (eq. 5-7), with two changes: wavelet phases come from one phase function, plus a random part, so that crests are long; and the sum
-// is divided by the sum of windows, so that the amplitude is even.
+// Sparse convolution of a cosine under a window, after Lagae et al., "Procedural noise using sparse Gabor convolution", SIGGRAPH
+// 2009 (eq. 5-7), with two changes: wavelet phases come from one phase function, plus a random part, so that crests are long; and
+// the sum is divided by the sum of windows, so that the amplitude is even.
 #pragma once
 
 #include "core/vec.h"

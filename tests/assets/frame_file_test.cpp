@@ -16,7 +16,7 @@ TEST_F(FrameFile, SrgbTransferMeetsTheStandard) {
     // Code values of IEC 61966-2-1 computed by hand from the two branches.
     EXPECT_EQ(srgb_from_linear(0), 0);
     EXPECT_EQ(srgb_from_linear(1), 255);
-    EXPECT_EQ(srgb_from_linear(0.5f), 188);      // 0.735357
+    EXPECT_EQ(srgb_from_linear(0.5f), 188);        // 0.735357
     EXPECT_EQ(srgb_from_linear(0.2158605f), 128);  // the linear value of code 128
     EXPECT_EQ(srgb_from_linear(0.0031308f), 10);
     EXPECT_EQ(srgb_from_linear(0.001f), 3);
@@ -54,7 +54,9 @@ TEST_F(FrameFile, ExrHoldsEveryPlaneByName) {
     ASSERT_EQ(spec.nchannels, 12);
     std::vector<float> texels(static_cast<std::size_t>(4 * 3 * 12));
     ASSERT_TRUE(input->read_image(0, 0, 0, 12, OIIO::TypeDesc::FLOAT, texels.data()));
-    const auto value = [&](const char* name, int i, int j) { return texels.at(static_cast<std::size_t>((j * 4 + i) * 12 + spec.channelindex(name))); };
+    const auto value = [&](const char* name, int i, int j) {
+        return texels.at(static_cast<std::size_t>((j * 4 + i) * 12 + spec.channelindex(name)));
+    };
     for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 4; ++i) {
             EXPECT_EQ(value("R", i, j), frame.colour(i, j, 0));

@@ -28,20 +28,24 @@ std::string chunk(const std::string& name, const std::string& data) {
     return word(static_cast<std::uint32_t>(data.size())) + name + data + word(~crc);
 }
 
-std::string palette_png(int width, int height, const std::string& palette, const std::string& indices, std::uint32_t claimed_width = 0) {
+std::string palette_png(int width, int height, const std::string& palette, const std::string& indices,
+                        std::uint32_t claimed_width = 0) {
     if (claimed_width == 0) claimed_width = static_cast<std::uint32_t>(width);
     std::string rows;
-    for (int j = 0; j < height; ++j) rows += '\0' + indices.substr(static_cast<std::size_t>(j * width), static_cast<std::size_t>(width));
+    for (int j = 0; j < height; ++j)
+        rows += '\0' + indices.substr(static_cast<std::size_t>(j * width), static_cast<std::size_t>(width));
     std::uint32_t a = 1, b = 0;
     for (const char c : rows) a = (a + static_cast<unsigned char>(c)) % 65521, b = (b + a) % 65521;
     const auto n = static_cast<std::uint16_t>(rows.size());
-    const std::string deflated = std::string("\x78\x01\x01", 3) + static_cast<char>(n) + static_cast<char>(n >> 8) + static_cast<char>(~n) +
-                                 static_cast<char>(static_cast<std::uint16_t>(~n) >> 8) + rows + static_cast<char>(b >> 8) + static_cast<char>(b) +
-                                 static_cast<char>(a >> 8) + static_cast<char>(a);
+    const std::string deflated = std::string("\x78\x01\x01", 3) + static_cast<char>(n) + static_cast<char>(n >> 8) +
+                                 static_cast<char>(~n) + static_cast<char>(static_cast<std::uint16_t>(~n) >> 8) + rows +
+                                 static_cast<char>(b >> 8) + static_cast<char>(b) + static_cast<char>(a >> 8) +
+                                 static_cast<char>(a);
     const auto word = [](std::uint32_t x) {
         return std::string{static_cast<char>(x >> 24), static_cast<char>(x >> 16), static_cast<char>(x >> 8), static_cast<char>(x)};
     };
-    return "\x89PNG\r\n\x1a\n" + chunk("IHDR", word(claimed_width) + word(static_cast<std::uint32_t>(height)) + std::string("\x08\x03\0\0\0", 5)) +
+    return "\x89PNG\r\n\x1a\n" +
+           chunk("IHDR", word(claimed_width) + word(static_cast<std::uint32_t>(height)) + std::string("\x08\x03\0\0\0", 5)) +
            chunk("PLTE", palette) + chunk("IDAT", deflated) + chunk("IEND", "");
 }
 
@@ -61,7 +65,9 @@ protected:
         const auto output = OIIO::ImageOutput::create(file);
         OIIO::ImageSpec spec(image.width, image.height, image.channels, type);
         spec["oiio:UnassociatedAlpha"] = 1;
-        EXPECT_TRUE(output && output->open(file, spec) && output->write_image(OIIO::TypeDesc::FLOAT, image.texels.data()) && output->close()) << name;
+        EXPECT_TRUE(output && output->open(file, spec) && output->write_image(OIIO::TypeDesc::FLOAT, image.texels.data()) &&
+                    output->close())
+            << name;
         return file;
     }
     std::string refusal(const std::filesystem::path& file) const {
@@ -128,14 +134,15 @@ TEST_F(ImageFile, FormatsOfOtherPrograms) {
         OIIO::TypeDesc type;
         float tolerance;
     };
-    const Case cases[] = {{"a.png", OIIO::TypeDesc::UINT8, 0.5f / 255},   {"b.tga", OIIO::TypeDesc::UINT8, 0.5f / 255},
+    const Case cases[] = {{"a.png", OIIO::TypeDesc::UINT8, 0.5f / 255},    {"b.tga", OIIO::TypeDesc::UINT8, 0.5f / 255},
                           {"c.tif", OIIO::TypeDesc::UINT16, 0.5f / 65535}, {"d.tif", OIIO::TypeDesc::FLOAT, 0},
                           {"e.exr", OIIO::TypeDesc::HALF, 5e-4f},          {"f.hdr", OIIO::TypeDesc::FLOAT, 1.0f / 128},
                           {"g.bmp", OIIO::TypeDesc::UINT8, 0.5f / 255},    {"h.jpg", OIIO::TypeDesc::UINT8, 0.1f}};
     for (const Case& c : cases) {
         const ImageF back = read_image(put_image(c.name, image, c.type), FirstRow::top);
         ASSERT_EQ(back.texels.size(), image.texels.size()) << c.name;
-        for (std::size_t i = 0; i < image.texels.size(); ++i) EXPECT_NEAR(back.texels[i], image.texels[i], c.tolerance + 1e-6f) << c.name;
+        for (std::size_t i = 0; i < image.texels.size(); ++i)
+            EXPECT_NEAR(back.texels[i], image.texels[i], c.tolerance + 1e-6f) << c.name;
     }
     // The bytes tell the format, not the name.
     std::filesystem::rename(folder / "h.jpg", folder / "h.png");
@@ -191,8 +198,9 @@ TEST_F(ImageFile, TruncatedAndScrambledFiles) {
     ImageF image(64, 64, 3);  // noise: nothing to compress, so that a cut file lacks texels
     std::mt19937 random(1);
     for (float& x : image.texels) x = static_cast<float>(random() % 65536) / 65535.0f;
-    const std::pair<const char*, OIIO::TypeDesc> formats[] = {{"a.png", OIIO::TypeDesc::UINT16}, {"b.jpg", OIIO::TypeDesc::UINT8}, {"c.tga", OIIO::TypeDesc::UINT8},
-                                                              {"d.exr", OIIO::TypeDesc::FLOAT},  {"e.tif", OIIO::TypeDesc::UINT8}, {"f.hdr", OIIO::TypeDesc::FLOAT},
+    const std::pair<const char*, OIIO::TypeDesc> formats[] = {{"a.png", OIIO::TypeDesc::UINT16}, {"b.jpg", OIIO::TypeDesc::UINT8},
+                                                              {"c.tga", OIIO::TypeDesc::UINT8},  {"d.exr", OIIO::TypeDesc::FLOAT},
+                                                              {"e.tif", OIIO::TypeDesc::UINT8},  {"f.hdr", OIIO::TypeDesc::FLOAT},
                                                               {"g.bmp", OIIO::TypeDesc::UINT8},  {"h.webp", OIIO::TypeDesc::UINT8}};
     for (const auto& [name, type] : formats) {
         const std::string whole = bytes_of(put_image(name, image, type));
@@ -200,15 +208,23 @@ TEST_F(ImageFile, TruncatedAndScrambledFiles) {
         EXPECT_EQ(read_image(folder / name).width, 64) << name;
         for (std::size_t eighth = 0; eighth < 8; ++eighth) {
             const auto file = put(std::string("cut-") + name, whole.substr(0, whole.size() * eighth / 8));
-            if (eighth <= 4) EXPECT_THROW(read_image(file), Error) << name << " cut at " << eighth << " eighths";
+            if (eighth <= 4)
+                EXPECT_THROW(read_image(file), Error) << name << " cut at " << eighth << " eighths";
             else
-                try { read_image(file); } catch (const Error&) {}
+                try {
+                    read_image(file);
+                } catch (const Error&) {
+                }
         }
         for (std::size_t at = 4; at < whole.size(); at += whole.size() / 23) {
             std::string scrambled = whole;
-            for (std::size_t i = at; i < std::min(at + 5, whole.size()); ++i) scrambled[i] = static_cast<char>(0xff - static_cast<unsigned char>(scrambled[i]));
+            for (std::size_t i = at; i < std::min(at + 5, whole.size()); ++i)
+                scrambled[i] = static_cast<char>(0xff - static_cast<unsigned char>(scrambled[i]));
             const auto file = put(std::string("scrambled-") + name, scrambled);
-            try { read_image(file); } catch (const Error&) {}
+            try {
+                read_image(file);
+            } catch (const Error&) {
+            }
         }
     }
 }

@@ -87,7 +87,8 @@ ImageF blurred(const ImageF& image, int radius) {
             for (int c = 0; c < image.channels; ++c) {
                 float sum = 0;
                 for (int dj = -radius; dj <= radius; ++dj)
-                    for (int di = -radius; di <= radius; ++di) sum += image(wrap_index(i + di, image.width), wrap_index(j + dj, image.height), c);
+                    for (int di = -radius; di <= radius; ++di)
+                        sum += image(wrap_index(i + di, image.width), wrap_index(j + dj, image.height), c);
                 out(i, j, c) = sum / static_cast<float>((2 * radius + 1) * (2 * radius + 1));
             }
     return out;
@@ -166,9 +167,10 @@ TEST(MapAgreement, UnrelatedFlatAndTinyMapsLeaveItUndecided) {
     const Waves waves(1);
     ImageF flat(64, 64, 3);
     for (std::size_t i = 2; i < flat.texels.size(); i += 3) flat.texels[i] = 1;
-    for (const MapAgreement& a : {compare_maps(heights(waves, 64, 64, false), flat), compare_maps(HeightField(64, 64, 0.5f), normals(waves, 64, 64, false)),
-                                  compare_maps(HeightField(1, 1, 0.5f), normals(waves, 64, 64, false)),
-                                  compare_maps(heights(waves, 1, 512, false), normals(waves, 512, 1, false))}) {
+    for (const MapAgreement& a :
+         {compare_maps(heights(waves, 64, 64, false), flat), compare_maps(HeightField(64, 64, 0.5f), normals(waves, 64, 64, false)),
+          compare_maps(HeightField(1, 1, 0.5f), normals(waves, 64, 64, false)),
+          compare_maps(heights(waves, 1, 512, false), normals(waves, 512, 1, false))}) {
         EXPECT_EQ(a.x, 0);
         EXPECT_EQ(a.y, 0);
         EXPECT_FALSE(read_agreement(a).polarity_decided || read_agreement(a).green_decided);

@@ -20,13 +20,15 @@ constexpr int size = 64;
 // Bumps with slopes in both directions, everywhere different.
 float bump(double u, double v) {
     constexpr double tau = 2 * std::numbers::pi;
-    return static_cast<float>(0.5 + 0.2 * std::sin(tau * 2 * u + std::sin(tau * v)) + 0.2 * std::cos(tau * 3 * v + 0.5 * std::sin(tau * 2 * u)));
+    return static_cast<float>(0.5 + 0.2 * std::sin(tau * 2 * u + std::sin(tau * v)) +
+                              0.2 * std::cos(tau * 3 * v + 0.5 * std::sin(tau * 2 * u)));
 }
 
 ImageF height_picture(bool inverted = false) {
     ImageF image(size, size, 1);
     for (int j = 0; j < size; ++j)
-        for (int i = 0; i < size; ++i) image(i, j) = inverted ? 1 - bump((i + 0.5) / size, (j + 0.5) / size) : bump((i + 0.5) / size, (j + 0.5) / size);
+        for (int i = 0; i < size; ++i)
+            image(i, j) = inverted ? 1 - bump((i + 0.5) / size, (j + 0.5) / size) : bump((i + 0.5) / size, (j + 0.5) / size);
     return image;
 }
 
@@ -63,9 +65,12 @@ protected:
         const auto output = OIIO::ImageOutput::create("jpeg");
         OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
         spec["Compression"] = "jpeg:" + std::to_string(quality);
-        ASSERT_TRUE(output->open((folder / name).string(), spec) && output->write_image(OIIO::TypeDesc::FLOAT, flipped.texels.data()) && output->close());
+        ASSERT_TRUE(output->open((folder / name).string(), spec) &&
+                    output->write_image(OIIO::TypeDesc::FLOAT, flipped.texels.data()) && output->close());
     }
-    std::string refusal() const { return message_of<Error>([&] { load_material(folder); }); }
+    std::string refusal() const {
+        return message_of<Error>([&] { load_material(folder); });
+    }
     static bool noted(const Material& m, std::string_view part) {
         return std::any_of(m.notes.begin(), m.notes.end(), [&](const std::string& n) { return has(n, part); });
     }
@@ -106,8 +111,14 @@ TEST_F(MaterialFile, AllFourReadingsComeOutTheSame) {
 TEST_F(MaterialFile, TheSidecarOverridesAndContradictionsAreNoted) {
     put_16("height.png", height_picture(true));
     put_16("normal.png", normal_picture(true));
-    write_sidecar(folder / "material.toml", {.height_scale = 0.3f, .physical_size_m = 2, .zero_level = 0.5f, .white_is_high = true, .normal_y_up = true,
-                                             .colour = {}, .height = {}, .normal = {}});
+    write_sidecar(folder / "material.toml", {.height_scale = 0.3f,
+                                             .physical_size_m = 2,
+                                             .zero_level = 0.5f,
+                                             .white_is_high = true,
+                                             .normal_y_up = true,
+                                             .colour = {},
+                                             .height = {},
+                                             .normal = {}});
     const Material m = load_material(folder);
     EXPECT_NEAR(m.height.texels(3, 4), 1 - bump(3.5 / size, 4.5 / size), 2e-5f);
     EXPECT_NEAR((*m.normal)(3, 4, 1), 2 * normal_picture(true)(3, 4, 1) - 1, 1e-4f);
@@ -117,8 +128,14 @@ TEST_F(MaterialFile, TheSidecarOverridesAndContradictionsAreNoted) {
     EXPECT_TRUE(noted(m, "material.toml says white is high, and is obeyed, but the maps say the opposite")) << all(m);
     EXPECT_TRUE(noted(m, "material.toml says green points up, and is obeyed, but the maps say the opposite")) << all(m);
 
-    write_sidecar(folder / "material.toml", {.height_scale = {}, .physical_size_m = {}, .zero_level = {}, .white_is_high = false, .normal_y_up = false,
-                                             .colour = {}, .height = {}, .normal = {}});
+    write_sidecar(folder / "material.toml", {.height_scale = {},
+                                             .physical_size_m = {},
+                                             .zero_level = {},
+                                             .white_is_high = false,
+                                             .normal_y_up = false,
+                                             .colour = {},
+                                             .height = {},
+                                             .normal = {}});
     const Material agreed = load_material(folder);
     EXPECT_FALSE(noted(agreed, "opposite")) << all(agreed);
     EXPECT_NEAR(agreed.height.texels(3, 4), bump(3.5 / size, 4.5 / size), 2e-5f);
@@ -168,7 +185,8 @@ TEST_F(MaterialFile, WeakNormalsDoNotFlattenTheRelief) {
 TEST_F(MaterialFile, ColoursAreExpandedToFourChannels) {
     put_16("height.png", height_picture());
     write_png(folder / "albedo.png", Image8(2, 2, 1, 77), FirstRow::bottom);
-    EXPECT_EQ(load_material(folder).colour->texels, (std::vector<std::uint8_t>{77, 77, 77, 255, 77, 77, 77, 255, 77, 77, 77, 255, 77, 77, 77, 255}));
+    EXPECT_EQ(load_material(folder).colour->texels,
+              (std::vector<std::uint8_t>{77, 77, 77, 255, 77, 77, 77, 255, 77, 77, 77, 255, 77, 77, 77, 255}));
     Image8 two(1, 1, 2);
     two.texels = {9, 8};
     write_png(folder / "albedo.png", two, FirstRow::bottom);
@@ -217,16 +235,28 @@ TEST_F(MaterialFile, BrokenHeightsAreRefusedWithTheirPlace) {
     image(3, 2) = std::numeric_limits<float>::infinity();
     put_exr("height.exr", image);
     const std::string message = refusal();
-    EXPECT_TRUE(has(message, "height.exr: 2 of its texels are NaN or infinite, one of them in column 2, row 1 from the top")) << message;
+    EXPECT_TRUE(has(message, "height.exr: 2 of its texels are NaN or infinite, one of them in column 2, row 1 from the top"))
+        << message;
 }
 
 TEST_F(MaterialFile, AColourIsNoHeightAndNoNormal) {
     ImageF photo(size, size, 3);
     for (int j = 0; j < size; ++j)
-        for (int i = 0; i < size; ++i) photo(i, j, 0) = 0.6f, photo(i, j, 1) = 0.4f * bump(i / 64.0, j / 64.0), photo(i, j, 2) = 0.2f;
+        for (int i = 0; i < size; ++i)
+            photo(i, j, 0) = 0.6f, photo(i, j, 1) = 0.4f * bump(i / 64.0, j / 64.0), photo(i, j, 2) = 0.2f;
     put_16("height.png", photo);
     EXPECT_TRUE(has(refusal(), "it is a colour picture")) << refusal();
+    ImageF tinted = photo;  // grey with a breath of colour: read, and said
+    for (std::size_t i = 0; i < tinted.texels.size(); ++i) tinted.texels[i] = 0.5f + (i % 3 == 0 ? 0.02f : 0.0f);
+    put_16("height.png", tinted);
+    EXPECT_TRUE(noted(load_material(folder), "slightly coloured"));
+    for (float& x : photo.texels) x *= 50;
+    write_exr(folder / "height.exr", std::vector<ExrChannel>{{"R", &photo, 0}, {"G", &photo, 1}, {"B", &photo, 2}},
+              FirstRow::bottom);
     std::filesystem::remove(folder / "height.png");
+    EXPECT_TRUE(has(refusal(), "it is a colour picture")) << refusal();
+    std::filesystem::remove(folder / "height.exr");
+    for (float& x : photo.texels) x /= 50;
     put_16("normal.png", photo);
     EXPECT_TRUE(has(refusal(), "no normals of a surface")) << refusal();
     put_16("normal.png", height_picture());
@@ -278,7 +308,8 @@ TEST_F(MaterialFile, AmbiguousFolders) {
     EXPECT_EQ(files.height, folder / "a_height.png");
     EXPECT_EQ(files.normal, folder / "a_nor_gl.png");
     EXPECT_EQ(files.colour, folder / "a_color.png");
-    EXPECT_EQ(notes, (std::vector<std::string>{"colour is a_color.png, not a_diff.png", "height is a_height.png, not a_bump.png", "normal is a_nor_gl.png, not a_nor_dx.png"}));
+    EXPECT_EQ(notes, (std::vector<std::string>{"colour is a_color.png, not a_diff.png", "height is a_height.png, not a_bump.png",
+                                               "normal is a_nor_gl.png, not a_nor_dx.png"}));
 }
 
 }  // namespace relievo::test

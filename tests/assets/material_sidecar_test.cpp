@@ -7,7 +7,9 @@ namespace relievo::test {
 
 class Sidecar : public InTemporaryFolder {
 protected:
-    std::string refusal(std::string_view text) { return message_of<Error>([&] { read_sidecar(put("material.toml", text)); }); }
+    std::string refusal(std::string_view text) {
+        return message_of<Error>([&] { read_sidecar(put("material.toml", text)); });
+    }
 };
 
 TEST_F(Sidecar, ReadsEveryKey) {
@@ -33,12 +35,19 @@ normal = "c.tga"
 
 TEST_F(Sidecar, EmptyMeansNothingIsSaid) {
     const MaterialSidecar s = read_sidecar(put("material.toml", ""));
-    EXPECT_FALSE(s.height_scale || s.physical_size_m || s.zero_level || s.white_is_high || s.normal_y_up || s.colour || s.height || s.normal);
+    EXPECT_FALSE(s.height_scale || s.physical_size_m || s.zero_level || s.white_is_high || s.normal_y_up || s.colour || s.height ||
+                 s.normal);
 }
 
 TEST_F(Sidecar, WrittenReadsBackTheSame) {
-    const MaterialSidecar s{.height_scale = 1.0f / 3, .physical_size_m = 1, .zero_level = 0.1f, .white_is_high = true, .normal_y_up = true,
-                            .colour = std::nullopt, .height = "odd \"name\" \\ é\t.png", .normal = std::nullopt};
+    const MaterialSidecar s{.height_scale = 1.0f / 3,
+                            .physical_size_m = 1,
+                            .zero_level = 0.1f,
+                            .white_is_high = true,
+                            .normal_y_up = true,
+                            .colour = std::nullopt,
+                            .height = "odd \"name\" \\ é\t.png",
+                            .normal = std::nullopt};
     write_sidecar(folder / "material.toml", s);
     const MaterialSidecar r = read_sidecar(folder / "material.toml");
     EXPECT_EQ(r.height_scale, s.height_scale);

@@ -92,6 +92,39 @@ TEST(reference_shadow, creases_are_judged_like_any_point) {
     }
 }
 
+// The same where nothing is a round number and the crease runs up and down: the hit's own rounding must not decide.
+TEST(reference_shadow, creases_hit_aslant_are_judged_like_any_point) {
+    const int n = 11;
+    HeightField ridge(n, n);
+    HeightField valley(n, n);
+    const auto from_4 = [&](int i) { return std::min(std::abs(i - 4), n - std::abs(i - 4)) / 6.0; };
+    for (int j = 0; j < n; ++j) {
+        for (int i = 0; i < n; ++i) {
+            valley.texels(i, j) = static_cast<float>(0.5 * from_4(i) + 0.4 * from_4(j));
+            ridge.texels(i, j) = 1 - valley.texels(i, j);
+        }
+    }
+    std::mt19937 random(13);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    const double scale = 0.3;
+    const double flank = std::atan(scale * 0.5 * n / 6);  // its angle across the crease
+    for (int k = 0; k < 5000; ++k) {
+        const Vec2d uv{4.5 / n, 3 * uniform(random)};
+        const double e = flank * (uniform(random) < 0.5 ? 0.9 : 1.1);
+        const Vec3d light{uniform(random) < 0.5 ? std::cos(e) : -std::cos(e), 0, std::sin(e)};
+        for (const HeightField* field : {&ridge, &valley}) {
+            // On the ridge a light lower than the flank reaches only one side, and the side is what rounding does decide.
+            if (field == &ridge && e < flank) continue;
+            // A slanted ray that meets the crease at uv.
+            const Vec2d r{0.2 * uniform(random) - 0.1, 0.2 * uniform(random) - 0.1};
+            const double h = field->sample(uv);
+            const ReferenceHit point = reference_cast(*field, {.uv = uv + (1 - h) * r, .uv_per_height = r});
+            ASSERT_NEAR(point.height, h, 1e-12);
+            EXPECT_EQ(reference_shadow(*field, point, light, scale), field == &valley && e < flank) << k;
+        }
+    }
+}
+
 // A twisted patch sags along one diagonal: its far corner hides its own near flank.
 TEST(reference_shadow, the_second_root_of_the_own_cell_hides) {
     // 2x2 field, cell (0,0) with corners 1 at (0,0) and (1,1), 0 else: h = 1 - x - y + 2 x y, a saddle. Along the diagonal x = y = p:

@@ -48,7 +48,8 @@ std::vector<Image<T>> halved_chain(Image<T> finest, bool unit_vectors) {
                 float sum[4] = {};
                 for (int c = 0; c < fine.channels; ++c)
                     for (int k = 0; k < 4; ++k)
-                        sum[c] += 0.25f * static_cast<float>(fine(std::min(2 * x + k % 2, fine.width - 1), std::min(2 * y + k / 2, fine.height - 1), c));
+                        sum[c] += 0.25f * static_cast<float>(fine(std::min(2 * x + k % 2, fine.width - 1),
+                                                                  std::min(2 * y + k / 2, fine.height - 1), c));
                 const float length = unit_vectors ? std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) : 1;
                 for (int c = 0; c < fine.channels; ++c) coarse(x, y, c) = static_cast<T>(sum[c] / length);
             }
@@ -99,7 +100,8 @@ inline ImageF brute_force_cones(const HeightField& field) {
             for (int y = -n / 2; y <= n / 2; ++y) {
                 for (int x = -n / 2; x <= n / 2; ++x) {
                     const float rise = field.wrapped(i + x, j + y) - h;
-                    if (rise > 0) ratio = std::min(ratio, std::sqrt(static_cast<float>(x * x + y * y)) / static_cast<float>(n) / rise);
+                    if (rise > 0)
+                        ratio = std::min(ratio, std::sqrt(static_cast<float>(x * x + y * y)) / static_cast<float>(n) / rise);
                 }
             }
             cones(i, j, 0) = h;
@@ -116,8 +118,10 @@ inline MapSet small_maps(int size, float height_scale) {
     Image8 colour(size, size, 4);
     for (int j = 0; j < size; ++j) {
         for (int i = 0; i < size; ++i) {
-            const bool mark = letter_f((static_cast<float>(i) + 0.5f) / static_cast<float>(size), (static_cast<float>(j) + 0.5f) / static_cast<float>(size));
-            const std::uint8_t texel[] = {static_cast<std::uint8_t>(mark ? 200 : 170), static_cast<std::uint8_t>(mark ? 60 : 165), static_cast<std::uint8_t>(mark ? 50 : 150), 255};
+            const bool mark = letter_f((static_cast<float>(i) + 0.5f) / static_cast<float>(size),
+                                       (static_cast<float>(j) + 0.5f) / static_cast<float>(size));
+            const std::uint8_t texel[] = {static_cast<std::uint8_t>(mark ? 200 : 170), static_cast<std::uint8_t>(mark ? 60 : 165),
+                                          static_cast<std::uint8_t>(mark ? 50 : 150), 255};
             std::copy_n(texel, 4, colour.at(i, j));
         }
     }

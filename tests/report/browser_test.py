@@ -153,6 +153,11 @@ class Wide(Reader):
         field.send_keys(Keys.SPACE, Keys.BACKSPACE)
         self.assertEqual(len(self.css("#rows tbody tr")), every)
 
+    def test_identical_pictures_have_the_best_psnr(self):
+        for flip, psnr in zip(self.column("flip"), self.column("psnr_db")):
+            if flip == "0":
+                self.assertEqual(psnr, "∞")
+
     def test_best_is_marked_and_csv_is_copied(self):
         self.assertGreater(len(self.css("#rows td.best")), 0)
         self.js("document.getElementById('copy').click()")

@@ -123,7 +123,7 @@ TEST(Answer, IsToldOnTheHardestCase) {
     const auto said = answer(results);
     ASSERT_EQ(said.size(), 3u);
     EXPECT_EQ(said[0], "On river cobbles seen at 27.5 degrees, maximum mipmap tracing shows no wrong pixel, at 1.5 times the time of parallax occlusion mapping "
-                       "(64 steps, 1 step seen from above), which puts 4.0\u202f% of the pixels in the wrong place.");
+                       "with 64 steps, 1 step seen from above, which puts 4.0\u202f% of the pixels in the wrong place.");
     EXPECT_EQ(said[1], "Relief mapping gets 5.0\u202f% wrong there.");
     EXPECT_EQ(said[2], "Over all 2 pictures of 2 materials, the exact search shows at most 0.010\u202f% wrong pixels; the best of the others, parallax occlusion mapping, "
                        "is wrong on 3.0\u202f% on average.");

@@ -76,7 +76,8 @@ TEST(ResultsJson, ComesBackAsItWas) {
     results.rows[4].no_picture = "no fetches on this device";
     results.rows[5] = full_row();
     results.rows[6].knobs = {{"refine_steps", 6}, {"max_steps", 30}};  // the order is the owner's
-    results.error_legend = {"UV error", "texels", {{"0", "#ffffff"}, {"16", "#aa0000"}}};
+    results.error_legend = {.title = "UV error", .unit = "texels", .low_end = "early", .high_end = "late",
+                            .stops = {{0, 0, {255, 255, 255}, "0"}, {1, 16, {170, 0, 0}, "16"}}, .keys = {{{128, 128, 128}, "background"}}};
     results.maps = {{Map::cone, "cone", "Cone map", "widest empty cone"}};
     results.manifest.materials[1].physical_size_m = 0.25;
     const std::string text = results_json(results);

@@ -261,12 +261,13 @@ Row row_for(const Technique& technique, const Relief& relief, const View& view, 
 
 template <std::size_t count>
 Legend legend_of(const char* title, const char* unit, const Stop (&stops)[count]) {
-    Legend legend{title, unit, {}};
-    for (const Stop& s : stops) {
-        char colour[8];
-        std::snprintf(colour, sizeof colour, "#%02x%02x%02x", s.rgb[0], s.rgb[1], s.rgb[2]);
-        legend.stops.push_back({s.label, colour});
+    Legend legend{.title = title, .unit = unit, .low_end = "low", .high_end = "high"};
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto& rgb = stops[i].rgb;
+        const Rgb8 colour{static_cast<std::uint8_t>(rgb[0]), static_cast<std::uint8_t>(rgb[1]), static_cast<std::uint8_t>(rgb[2])};
+        legend.stops.push_back({static_cast<double>(i) / (count - 1), static_cast<double>(i), colour, std::string(stops[i].label)});
     }
+    legend.keys.push_back({{128, 128, 128}, "background"});
     return legend;
 }
 

@@ -39,12 +39,13 @@ TEST(ParallaxOffsetLimiting, is_parallax_mapping_times_the_cosine_of_the_view) {
 }
 
 TEST(ParallaxSlope, is_offset_limiting_times_the_normals_height) {
-    const MapSet maps = baked_maps(rough_field(4), height_scale);
+    const float tall = 0.3f;
+    const MapSet maps = baked_maps(rough_field(4), tall);
     bool steep = false;
-    for (const SurfaceRay& ray : random_rays(300, 35, height_scale, 0.3f, 3)) {
+    for (const SurfaceRay& ray : random_rays(300, 35, tall, 0.3f, 3)) {
         glsl::bound_maps = glsl::bind_maps(maps);
         const float slope = glsl::normal_at(ray.uv, ray.lod).z;
-        steep = steep || slope < 0.8f;
+        steep = steep || slope < 0.6f;
         const glsl::vec2 expected = slope * shift_of("parallax_offset_limiting", maps, ray);
         EXPECT_LT(length(shift_of("parallax_slope", maps, ray) - expected), 1e-6f);
     }

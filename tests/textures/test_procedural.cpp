@@ -13,12 +13,16 @@ namespace {
 
 class EachMaterial : public testing::TestWithParam<ProceduralMaterial> {};
 
+}  // namespace
+void PrintTo(const ProceduralMaterial& material, std::ostream* out) { *out << material.id; }
+namespace {
+
 TEST_P(EachMaterial, is_the_same_for_any_number_of_threads_and_another_for_another_seed) {
-    const Material one = procedural_material(GetParam().id, 96, 7, 1);
-    const Material two = procedural_material(GetParam().id, 96, 7, 2);
+    const Material one = procedural_material(GetParam().id, 64, 7, 1);
+    const Material two = procedural_material(GetParam().id, 64, 7, 2);
     EXPECT_EQ(one.height.texels.texels, two.height.texels.texels);
     EXPECT_EQ(one.colour->texels, two.colour->texels);
-    const Material other = procedural_material(GetParam().id, 96, 8, 2);
+    const Material other = procedural_material(GetParam().id, 64, 8, 2);
     EXPECT_NE(one.height.texels.texels, other.height.texels.texels);
     EXPECT_NE(one.colour->texels, other.colour->texels);
 }
@@ -37,7 +41,7 @@ TEST_P(EachMaterial, has_heights_of_16_bits_that_fill_the_range) {
 }
 
 TEST_P(EachMaterial, comes_in_any_size) {
-    for (const int size : {1, 7, 64, 490}) {
+    for (const int size : {1, 7, 64, 630}) {
         const Material m = procedural_material(GetParam().id, size, 3, 2);
         EXPECT_EQ(m.height.width(), size);
         EXPECT_EQ(m.height.height(), size);

@@ -29,7 +29,7 @@ vec3 to_light(LightUniforms light, vec3 position) {
 float key_visibility(SurfaceRay ray, SurfaceHit hit) {
     float visible = 1.0f;
     if (casts_shadow && light_count > 0)
-        visible = self_shadow(ray, hit, to_light(first_lights[0], surface_position(ray, hit)), march);
+        visible = self_shadow(ray, hit, to_light(first_lights[0], surface_position(ray, hit)), relief.shadow_bias, march);
     return visible;
 }
 
@@ -43,7 +43,8 @@ vec3 surface_colour(SurfaceRay ray, SurfaceHit hit) {
         LightUniforms light = light_at(i);
         float arrives = i == 0 ? visible : 1.0f;
         if (light.directional == 0)
-            arrives *= attenuation(light.constant, light.linear, light.quadratic, length(vec3(light.x, light.y, light.z) - position));
+            arrives *= attenuation(light.constant, light.linear, light.quadratic,
+                                   length(vec3(light.x, light.y, light.z) - position));
         result += arrives * vec3(light.r, light.g, light.b) *
                   phong(albedo, scene.specular, scene.shininess, normal, ray.view, to_light(light, position));
     }

@@ -64,6 +64,7 @@ function digits(value, count = 3) {
 // A number as it stands under a header that names its unit.
 function shown(value, column) {
     if (value === null || value === undefined) return "–";
+    if (value === Infinity) return "∞";
     return digits(column.unit === "share" ? value * 100 : value);
 }
 const unit_of = (column) => (column.unit === "share" ? "%" : column.unit);
@@ -85,7 +86,7 @@ const of_hundred = (share) => (share === 0 ? "none" : digits(share * 100, 2) + "
 // What a picture shows to someone who cannot see it: what is wrong, how far, and where.
 function picture_words(row, mode) {
     const technique = page.techniques[row.t].title;
-    const subject = `${technique}${row.s ? " (" + row.s + ")" : ""} on ${page.materials[row.m].title} seen at ${row.e} degrees`;
+    const subject = `${technique}${row.s ? " with " + row.s : ""} on ${page.materials[row.m].title} seen at ${row.e} degrees`;
     if (mode === "fetches") {
         const mean = value_of(row, "fetches.mean");
         return `Fetches per pixel of ${subject}: ` + (mean === null ? "not counted." : `${digits(mean)} on average, at most ${digits(value_of(row, "fetches.max"))}.`);
@@ -95,7 +96,7 @@ function picture_words(row, mode) {
     if (missed !== null && early !== null) {
         parts.push(missed + early === 0 ? "no pixel is wrong" : `${of_hundred(missed)} of the first hits are missed, ${of_hundred(early)} are early`);
     }
-    if (far !== null) parts.push(`99 of 100 pixels are within ${digits(far, 2)} texels`);
+    if (far) parts.push(`99 of 100 pixels are within ${digits(far, 2)} texels`);
     return `${mode === "wrong" ? "Where it is wrong: " : ""}${subject}: ${parts.join("; ") || "not measured"}.${row.w ? " " + row.w : ""}`;
 }
 

@@ -7,7 +7,7 @@ function draw_equal(state) {
     const techniques = [...new Set(settings.map((row) => row.t))].sort((a, b) => a - b);
     const errors = settings.map((row) => value_of(row, error.id)).filter((v) => v > 0);
     const costs = settings.map((row) => value_of(row, cost.id)).filter((v) => v > 0);
-    $("equal-scope").textContent = `${page.materials[state.material].title}, ${view_title(state.material, state.plot_view)}; error is ${error.title.toLowerCase()}, cost is ${cost.title.toLowerCase()}. `
+    $("equal-scope").textContent = `${page.materials[state.material].title}, ${view_title(state.material, state.plot_view)}; error is “${error.title}”, cost is “${cost.title}”. `
         + (page.sweep.length ? "Each technique is given its best setting among those that were run." : "Only the default settings were run, so each technique has one chance.");
 
     const targets = [...round_steps(errors, 4).reverse(), 0];

@@ -2,6 +2,8 @@
 // a long table is laid out as far as it is scrolled.
 function make_table(state, open) {
     const columns = page.columns;
+    // Identical pictures have no finite PSNR; they are the best there is, not the unknown.
+    for (const row of page.rows) if (value_of(row, "psnr_db") === null && value_of(row, "flip") === 0) row.n[column_index.get("psnr_db")] = Infinity;
     let sort = { key: "technique", down: false };
     let shown_rows = [];
     const keys = [
@@ -78,7 +80,7 @@ function make_table(state, open) {
     function csv() {
         const quoted = (text) => (/[",\n]/.test(text) ? '"' + text.replaceAll('"', '""') + '"' : text);
         const head = ["technique", "material", "view", "elevation_deg", "setting", ...columns.map((c) => c.id.replace(".", "_"))];
-        return [head, ...shown_rows.map((row) => [page.techniques[row.t].id, page.materials[row.m].id, page.views[row.v], row.e, row.s, ...row.n.map((v) => v ?? "")])]
+        return [head, ...shown_rows.map((row) => [page.techniques[row.t].id, page.materials[row.m].id, page.views[row.v], row.e, row.s, ...row.n.map((v) => (Number.isFinite(v) ? v : ""))])]
             .map((line) => line.map((field) => quoted(String(field))).join(",")).join("\n") + "\n";
     }
     async function copy() {
