@@ -5,8 +5,11 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
+#include <vector>
 
 namespace relievo {
 
@@ -197,7 +200,7 @@ bool draw_panel(Controls& controls, const PanelFacts& facts, const PanelSettings
     ImGui::SetNextWindowPos({0, 0});
     ImGui::SetNextWindowSize({settings.width, settings.height});
     ImGui::Begin("panel", nullptr,
-                 ImGuiWindowFlags_NoDecoration & ~ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoMove |
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
     text_view(facts.material);
     if (!facts.notes.empty()) {
