@@ -16,6 +16,7 @@ namespace relievo {
 namespace {
 
 constexpr float natural_width = 384;  // the longest title of a technique beside its year
+constexpr float least_width = 150;    // a slider and the word beside it
 constexpr int most_rows = 14;         // of the menu before it scrolls
 
 void text_view(std::string_view text) { ImGui::TextUnformatted(text.data(), text.data() + text.size()); }
@@ -193,7 +194,8 @@ void figures(const PanelFacts& facts) {
 }  // namespace
 
 float panel_width(float window_width, float text_scale) {
-    return std::floor(std::min(natural_width * text_scale, window_width / 2));
+    const float width = std::floor(std::min(natural_width * text_scale, window_width / 2));
+    return width < least_width * text_scale ? 0 : width;
 }
 
 bool draw_panel(Controls& controls, const PanelFacts& facts, const PanelSettings& settings) {

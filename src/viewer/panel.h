@@ -30,7 +30,8 @@ struct PanelSettings {
 // True once the relief's amplitude was let go of, so that normals can be made for it.
 bool draw_panel(Controls& controls, const PanelFacts& facts, const PanelSettings& settings);
 
-// Width for a picture width, in points, at this scale of the text; the picture keeps at least half of the window.
+// Width of the panel in a window this wide, in points, at this scale of the text: at most half of it, and 0 (no panel) where that
+// would be too narrow to read.
 float panel_width(float window_width, float text_scale);
 
 }  // namespace relievo

@@ -116,9 +116,10 @@ public:
                 }
             }
             const bool last = settings_.frames > 0 && frames + 1 >= settings_.frames;
-            if (draw_frame(last)) ++frames;
+            const bool shown = draw_frame(last);
+            if (shown) ++frames;
             if (touched()) last_event = Clock::now();
-            if (last) break;
+            if (last && shown) break;
             if (!ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) break;
         }
         swapchain_.wait();
@@ -216,7 +217,7 @@ private:
         facts_.device = device_->info().name;
         facts_.technique_ms = technique_ms_;
         const Technique* before = controls_.technique;
-        const bool settled = draw_panel(controls_, facts_, {panel_points_, height, ui_.heading()});
+        const bool settled = panel_points_ > 0 && draw_panel(controls_, facts_, {panel_points_, height, ui_.heading()});
         if (controls_.technique != before) technique_ms_.clear();
         input_.handle(controls_, area);
         scene_.set_height_scale(controls_.height_scale);
