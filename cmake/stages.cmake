@@ -16,6 +16,14 @@ add_library(relievo_openimageio INTERFACE)
 target_link_libraries(relievo_openimageio INTERFACE ${OPENIMAGEIO_LIBRARY} ${OPENIMAGEIO_UTIL_LIBRARY})
 target_include_directories(relievo_openimageio SYSTEM INTERFACE $<BUILD_INTERFACE:${OPENIMAGEIO_INCLUDE_DIR}> $<BUILD_INTERFACE:${IMATH_INCLUDE_DIR}>)
 
+# Debian's libimgui.a holds the backends for GLFW and Vulkan; its font code lives in libstb. It has no CMake package.
+find_library(IMGUI_LIBRARY imgui REQUIRED)
+find_library(STB_LIBRARY stb REQUIRED)
+find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)
+add_library(relievo_imgui INTERFACE)
+target_link_libraries(relievo_imgui INTERFACE ${IMGUI_LIBRARY} ${STB_LIBRARY} glfw Vulkan::Vulkan)
+target_include_directories(relievo_imgui SYSTEM INTERFACE $<BUILD_INTERFACE:${IMGUI_INCLUDE_DIR}>)
+
 add_library(relievo_options INTERFACE)
 target_compile_options(relievo_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow
   -Wno-missing-field-initializers  # designated initializers leave defaults out on purpose
