@@ -20,9 +20,12 @@ target_include_directories(relievo_openimageio SYSTEM INTERFACE $<BUILD_INTERFAC
 find_library(IMGUI_LIBRARY imgui REQUIRED)
 find_library(STB_LIBRARY stb REQUIRED)
 find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)
-add_library(relievo_imgui INTERFACE)
-target_link_libraries(relievo_imgui INTERFACE ${IMGUI_LIBRARY} ${STB_LIBRARY} glfw Vulkan::Vulkan)
-target_include_directories(relievo_imgui SYSTEM INTERFACE $<BUILD_INTERFACE:${IMGUI_INCLUDE_DIR}>)
+# As an imported archive, so that what it needs comes after it on the linker's line.
+add_library(relievo_imgui STATIC IMPORTED GLOBAL)
+set_target_properties(relievo_imgui PROPERTIES
+  IMPORTED_LOCATION ${IMGUI_LIBRARY}
+  INTERFACE_INCLUDE_DIRECTORIES ${IMGUI_INCLUDE_DIR}
+  INTERFACE_LINK_LIBRARIES "${STB_LIBRARY};glfw;Vulkan::Vulkan")
 
 add_library(relievo_options INTERFACE)
 target_compile_options(relievo_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow
