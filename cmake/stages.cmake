@@ -16,6 +16,17 @@ add_library(relievo_openimageio INTERFACE)
 target_link_libraries(relievo_openimageio INTERFACE ${OPENIMAGEIO_LIBRARY} ${OPENIMAGEIO_UTIL_LIBRARY})
 target_include_directories(relievo_openimageio SYSTEM INTERFACE $<BUILD_INTERFACE:${OPENIMAGEIO_INCLUDE_DIR}> $<BUILD_INTERFACE:${IMATH_INCLUDE_DIR}>)
 
+# Debian's libimgui.a holds the backends for GLFW and Vulkan; its font code lives in libstb. It has no CMake package.
+find_library(IMGUI_LIBRARY imgui REQUIRED)
+find_library(STB_LIBRARY stb REQUIRED)
+find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)
+# As an imported archive, so that what it needs comes after it on the linker's line.
+add_library(relievo_imgui STATIC IMPORTED GLOBAL)
+set_target_properties(relievo_imgui PROPERTIES
+  IMPORTED_LOCATION ${IMGUI_LIBRARY}
+  INTERFACE_INCLUDE_DIRECTORIES ${IMGUI_INCLUDE_DIR}
+  INTERFACE_LINK_LIBRARIES "${STB_LIBRARY};glfw;Vulkan::Vulkan")
+
 add_library(relievo_options INTERFACE)
 target_compile_options(relievo_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow
   -Wno-missing-field-initializers  # designated initializers leave defaults out on purpose

@@ -1,7 +1,9 @@
 #include "cli/commands.h"
 
+#include "cli/interrupt.h"
 #include "cli/material_options.h"
 #include "cli/options.h"
+#include "cli/progress_display.h"
 #include "core/error.h"
 #include "viewer/viewer.h"
 
@@ -37,6 +39,8 @@ void add_view_command(CLI::App& app) {
         const Size size = parse_size(o->size);
         o->settings.width = size.width;
         o->settings.height = size.height;
+        o->settings.progress = progress_display(false);
+        o->settings.poll = stop_if_interrupted;
         run_viewer(o->settings);
     });
 }

@@ -7,132 +7,133 @@ namespace relievo::gpu {
 
 namespace {
 
-// Pictures are linear until the image encodes them, so an sRGB format comes first; any other will do if there is none.
-vk::SurfaceFormatKHR choose_format(const vk::raii::PhysicalDevice& physical, vk::SurfaceKHR surface) {
-    const auto formats = physical.getSurfaceFormatsKHR(surface);
-    const auto it = std::ranges::find_if(formats, [](const vk::SurfaceFormatKHR& f) {
-        return f.format == vk::Format::eB8G8R8A8Srgb || f.format == vk::Format::eR8G8B8A8Srgb;
-    });
-    return it == formats.end() ? formats.front() : *it;
+constexpr auto forever = std::numeric_limits<std::uint64_t>::max();
+constexpr const char* other_device =
+    "choose another device with --device (relievo list devices); the software device shows on any display";
+
+vk::SurfaceFormatKHR choose_format(const Device& device, vk::SurfaceKHR surface) {
+    if (!device.physical().getSurfaceSupportKHR(device.queue_family(), surface))
+        throw Error("open", "a window on " + device.info().name, "this device does not show pictures on this display",
+                    other_device);
+    for (const vk::SurfaceFormatKHR f : device.physical().getSurfaceFormatsKHR(surface))
+        if ((f.format == vk::Format::eB8G8R8A8Unorm || f.format == vk::Format::eR8G8B8A8Unorm) &&
+            f.colorSpace == vk::ColorSpaceKHR::eSrgbNonlinear)
+            return f;
+    throw Error("open", "a window on " + device.info().name, "the display takes no plain 8-bit pictures", other_device);
 }
 
 void image_barrier(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageLayout from, vk::ImageLayout to) {
-    const vk::ImageMemoryBarrier2 barrier{
-        .srcStageMask = vk::PipelineStageFlagBits2::eColorAttachmentOutput,
-        .srcAccessMask = vk::AccessFlagBits2::eColorAttachmentWrite,
-        .dstStageMask = vk::PipelineStageFlagBits2::eColorAttachmentOutput,
-        .dstAccessMask = vk::AccessFlagBits2::eColorAttachmentWrite | vk::AccessFlagBits2::eColorAttachmentRead,
-        .oldLayout = from,
-        .newLayout = to,
-        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .image = image,
-        .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1}};
+    const vk::ImageMemoryBarrier2 barrier{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                          .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+                                          .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                          .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
+                                          .oldLayout = from,
+                                          .newLayout = to,
+                                          .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                          .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                          .image = image,
+                                          .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1}};
     commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
 }
 
 }  // namespace
 
-Swapchain::Swapchain(const Device& device, VkSurfaceKHR surface, vk::Extent2D extent)
+Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::Extent2D wanted)
     : device_(device),
-      surface_(device.instance(), surface),
+      surface_(surface),
+      format_(choose_format(device, surface)),
+      acquired_(device.handle(), vk::SemaphoreCreateInfo{}),
+      done_(device.handle(), vk::FenceCreateInfo{.flags = vk::FenceCreateFlagBits::eSignaled}),
       pool_(device.handle(), vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
                                                        .queueFamilyIndex = device.queue_family()}),
-      acquired_(device.handle(), vk::SemaphoreCreateInfo{}),
-      done_(device.handle(), vk::FenceCreateInfo{}) {
-    if (!device.physical().getSurfaceSupportKHR(device.queue_family(), *surface_))
-        throw Error("show", "a window", device.info().name + " cannot present to it", "choose another device (--device)");
-    format_ = choose_format(device.physical(), *surface_);
-    commands_ =
-        std::move(vk::raii::CommandBuffers(
-                      device.handle(), {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1})
-                      .front());
-    resize(extent);
+      commands_(device.handle(), vk::CommandBufferAllocateInfo{
+                                     .commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1}) {
+    rebuild(wanted);
 }
 
 Swapchain::~Swapchain() {
+    // Semaphores may still be waited for by the screen. A lost device has nothing to wait for.
     try {
         device_.handle().waitIdle();
     } catch (const vk::SystemError&) {
-        // A lost device has nothing left to wait for.
     }
 }
 
-void Swapchain::resize(vk::Extent2D extent) {
+void Swapchain::rebuild(vk::Extent2D wanted) {
     device_.handle().waitIdle();
-    const auto can = device_.physical().getSurfaceCapabilitiesKHR(*surface_);
-    // Most window systems fix the extent; the others let us choose.
-    if (can.currentExtent.width != std::numeric_limits<std::uint32_t>::max()) extent = can.currentExtent;
-    extent_ = vk::Extent2D{std::clamp(extent.width, can.minImageExtent.width, can.maxImageExtent.width),
-                           std::clamp(extent.height, can.minImageExtent.height, can.maxImageExtent.height)};
-    const std::uint32_t most = can.maxImageCount == 0 ? std::numeric_limits<std::uint32_t>::max() : can.maxImageCount;
-    views_.clear();
-    drawn_.clear();
-    vk::raii::SwapchainKHR next(device_.handle(),
-                                vk::SwapchainCreateInfoKHR{.surface = *surface_,
-                                                           .minImageCount = std::min(can.minImageCount + 1, most),
-                                                           .imageFormat = format_.format,
-                                                           .imageColorSpace = format_.colorSpace,
-                                                           .imageExtent = extent_,
-                                                           .imageArrayLayers = 1,
-                                                           .imageUsage = vk::ImageUsageFlagBits::eColorAttachment,
-                                                           .imageSharingMode = vk::SharingMode::eExclusive,
-                                                           .preTransform = can.currentTransform,
-                                                           .compositeAlpha = vk::CompositeAlphaFlagBitsKHR::eOpaque,
-                                                           .presentMode = vk::PresentModeKHR::eFifo,  // the one every device has
-                                                           .clipped = true,
-                                                           .oldSwapchain = *swapchain_});
-    swapchain_ = std::move(next);
-    images_.clear();
-    for (const auto image : swapchain_.getImages()) {
-        images_.push_back(vk::Image(image));
-        views_.emplace_back(device_.handle(),
-                            vk::ImageViewCreateInfo{.image = vk::Image(image),
-                                                    .viewType = vk::ImageViewType::e2D,
-                                                    .format = format_.format,
-                                                    .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1}});
-        drawn_.emplace_back(device_.handle(), vk::SemaphoreCreateInfo{});
+    const auto can = device_.physical().getSurfaceCapabilitiesKHR(surface_);
+    // A surface without a size of its own says 2^32 - 1.
+    extent_ = can.currentExtent.width != std::numeric_limits<std::uint32_t>::max()
+                  ? can.currentExtent
+                  : vk::Extent2D{std::clamp(wanted.width, can.minImageExtent.width, can.maxImageExtent.width),
+                                 std::clamp(wanted.height, can.minImageExtent.height, can.maxImageExtent.height)};
+    if (extent_.width == 0 || extent_.height == 0) {
+        extent_ = vk::Extent2D{};
+        return;
     }
+    if (!(can.supportedUsageFlags & vk::ImageUsageFlagBits::eTransferDst))
+        throw Error("open", "a window on " + device_.info().name, "its images cannot be copied to", other_device);
+    const std::uint32_t count = std::max(2u, can.minImageCount);
+    const vk::SwapchainCreateInfoKHR info{.surface = surface_,
+                                          .minImageCount = can.maxImageCount > 0 ? std::min(count, can.maxImageCount) : count,
+                                          .imageFormat = format_.format,
+                                          .imageColorSpace = format_.colorSpace,
+                                          .imageExtent = extent_,
+                                          .imageArrayLayers = 1,
+                                          .imageUsage = vk::ImageUsageFlagBits::eTransferDst,
+                                          .imageSharingMode = vk::SharingMode::eExclusive,
+                                          .preTransform = can.currentTransform,
+                                          .compositeAlpha = (can.supportedCompositeAlpha & vk::CompositeAlphaFlagBitsKHR::eOpaque)
+                                                                ? vk::CompositeAlphaFlagBitsKHR::eOpaque
+                                                                : vk::CompositeAlphaFlagBitsKHR::eInherit,
+                                          .presentMode = vk::PresentModeKHR::eFifo,  // the one mode every device has
+                                          .clipped = true,
+                                          .oldSwapchain = *swapchain_};
+    swapchain_ = vk::raii::SwapchainKHR(device_.handle(), info);
+    images_.clear();
+    for (const auto image : swapchain_.getImages()) images_.emplace_back(image);
+    drawn_.clear();
+    for (std::size_t i = 0; i < images_.size(); ++i) drawn_.emplace_back(device_.handle(), vk::SemaphoreCreateInfo{});
 }
 
-bool Swapchain::show(const std::function<void(const vk::raii::CommandBuffer&, const Target&)>& record) {
-    constexpr auto forever = std::numeric_limits<std::uint64_t>::max();
+void Swapchain::wait() const {
+    const auto result = device_.handle().waitForFences(*done_, true, forever);
+    if (result != vk::Result::eSuccess) throw Error("draw", "a frame on " + device_.info().name, vk::to_string(result));
+}
+
+bool Swapchain::show(const std::function<void(const vk::raii::CommandBuffer&, vk::Image)>& record) {
+    wait();
     std::uint32_t index = 0;
     try {
-        // "Suboptimal" still shows; only "out of date", which throws, does not.
         index = swapchain_.acquireNextImage(forever, *acquired_, nullptr).second;
     } catch (const vk::OutOfDateKHRError&) {
         return false;
     }
-    commands_.reset();
-    commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    image_barrier(commands_, images_[index], vk::ImageLayout::eUndefined, vk::ImageLayout::eColorAttachmentOptimal);
-    record(commands_, {images_[index], *views_[index], extent_, index});
-    image_barrier(commands_, images_[index], vk::ImageLayout::eColorAttachmentOptimal, vk::ImageLayout::ePresentSrcKHR);
-    commands_.end();
+    const vk::raii::CommandBuffer& commands = commands_.front();
+    commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    image_barrier(commands, images_[index], vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal);
+    record(commands, images_[index]);
+    image_barrier(commands, images_[index], vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::ePresentSrcKHR);
+    commands.end();
 
-    const vk::SemaphoreSubmitInfo wait{.semaphore = *acquired_, .stageMask = vk::PipelineStageFlagBits2::eColorAttachmentOutput};
-    const vk::SemaphoreSubmitInfo signal{.semaphore = *drawn_[index], .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
-    const vk::CommandBufferSubmitInfo submitted{.commandBuffer = *commands_};
+    const vk::SemaphoreSubmitInfo ready{.semaphore = *acquired_, .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
+    const vk::SemaphoreSubmitInfo drawn{.semaphore = *drawn_[index], .stageMask = vk::PipelineStageFlagBits2::eAllCommands};
+    const vk::CommandBufferSubmitInfo submitted{.commandBuffer = *commands};
+    device_.handle().resetFences(*done_);
     device_.queue().submit2(vk::SubmitInfo2{.waitSemaphoreInfoCount = 1,
-                                            .pWaitSemaphoreInfos = &wait,
+                                            .pWaitSemaphoreInfos = &ready,
                                             .commandBufferInfoCount = 1,
                                             .pCommandBufferInfos = &submitted,
                                             .signalSemaphoreInfoCount = 1,
-                                            .pSignalSemaphoreInfos = &signal},
+                                            .pSignalSemaphoreInfos = &drawn},
                             *done_);
-    const auto result = device_.handle().waitForFences(*done_, true, forever);
-    if (result != vk::Result::eSuccess) throw Error("show", "a frame on " + device_.info().name, vk::to_string(result));
-    device_.handle().resetFences(*done_);
-
-    const vk::Semaphore drawn = *drawn_[index];
-    const vk::SwapchainKHR chain = *swapchain_;
     try {
-        return device_.queue().presentKHR({.waitSemaphoreCount = 1,
-                                           .pWaitSemaphores = &drawn,
-                                           .swapchainCount = 1,
-                                           .pSwapchains = &chain,
-                                           .pImageIndices = &index}) == vk::Result::eSuccess;
+        const auto result = device_.queue().presentKHR({.waitSemaphoreCount = 1,
+                                                        .pWaitSemaphores = &*drawn_[index],
+                                                        .swapchainCount = 1,
+                                                        .pSwapchains = &*swapchain_,
+                                                        .pImageIndices = &index});
+        return result == vk::Result::eSuccess;
     } catch (const vk::OutOfDateKHRError&) {
         return false;
     }

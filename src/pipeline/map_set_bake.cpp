@@ -1,20 +1,118 @@
 #include "pipeline/map_set_bake.h"
+
+#include "core/error.h"
 #include "maps/cone_map.h"
+#include "maps/height_from_normal.h"
 #include "maps/max_pyramid.h"
 #include "maps/mip_chain.h"
 #include "maps/normal_map.h"
+#include "pipeline/map_cache.h"
+
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
 namespace relievo {
+
+namespace {
+
+constexpr std::uint32_t cone_map_version = 1;
+
+// Mid grey of a photographer's card, 50 % in linear light: shading is judged, not taste.
+constexpr std::uint8_t neutral_grey = 188;
+
+template <class T>
+Digest digest_of(const Image<T>& image, int threads) {
+    return content_digest(std::as_bytes(std::span(image.texels)), threads);
+}
+
+// Sizes and texels of everything the material brought; absent maps count as absent, not as empty bytes.
+std::string input_hash(const Material& m, const Digest& heights, int threads) {
+    std::string text;
+    const auto add = [&](std::string_view name, const auto& image, const Digest& digest) {
+        text += std::string(name) + ' ' + std::to_string(image.width) + 'x' + std::to_string(image.height) + ' ' + hex(digest) + '\n';
+    };
+    if (!m.height.empty()) add("height", m.height.texels, heights);
+    if (m.normal) add("normal", *m.normal, digest_of(*m.normal, threads));
+    if (m.colour) add("colour", *m.colour, digest_of(*m.colour, threads));
+    const Digest digest = sha256(std::as_bytes(std::span(text)));
+    return hex(std::span(digest).first(16));
+}
+
+void check(const Material& m) {
+    const std::string subject = "the maps of material " + m.name;
+    if (m.height.empty() && (!m.normal || m.normal->empty()))
+        throw Error("bake", subject, "it has neither heights nor normals", "give it a height map, or a normal map to integrate");
+    // The searches below rely on it, and a NaN would spread over everything that sees it.
+    for (const float h : m.height.texels.texels)
+        if (!(h >= 0 && h <= 1)) throw Error("bake", subject, "a height is not a number in [0,1]", "bring the heights into that range");
+    if (!(m.height_scale > 0) || !std::isfinite(m.height_scale))
+        throw Error("bake", subject, "its height_scale is " + std::to_string(m.height_scale), "give a positive amplitude in UV units");
+}
+
+std::string percent(double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
+    return text;
+}
+
+// Heights for a material that has only normals, at the height_scale that those normals imply.
+void integrate(Material& m, const BakeOptions& options) {
+    IntegratedHeight found = height_from_normal(*m.normal, options.threads, options.progress);
+    if (found.height_scale > 0) m.height_scale = found.height_scale;
+    char scale[32];
+    std::snprintf(scale, sizeof scale, "%.4g", static_cast<double>(m.height_scale));
+    m.notes.push_back(found.height_scale > 0
+                          ? "There was no height map: heights were integrated from the normals, whose slopes imply a height_scale of " +
+                                std::string(scale) + "; " + percent(found.inconsistency) + " of the slopes belong to no surface."
+                          : "There was no height map, and the normals are flat: so is the relief.");
+    m.height = std::move(found.height);
+}
+
+}  // namespace
+
 BakedMaps bake_maps(Material material, std::span<const Map> wanted, const BakeOptions& options) {
-    BakedMaps b;
-    b.height_scale = material.height_scale; b.zero_level = material.zero_level; b.notes = material.notes;
-    if (material.physical_size_m) b.physical_size_m = *material.physical_size_m;
-    const auto wants = [&](Map m) { return std::ranges::find(wanted, m) != wanted.end(); };
-    b.maps.height = std::move(material.height);
-    if (wants(Map::normal)) b.maps.normal = normal_mip_chain(material.normal ? std::move(*material.normal) : normal_map(b.maps.height, b.height_scale, options.threads), options.threads);
-    if (wants(Map::colour)) b.maps.colour = colour_mip_chain(material.colour ? std::move(*material.colour) : Image8(1, 1, 4, 188), options.threads);
-    if (wants(Map::max_pyramid)) b.maps.max_pyramid = max_pyramid(b.maps.height, options.threads);
-    if (wants(Map::cone)) b.maps.cone = cone_map(b.maps.height, options.threads, options.progress);
-    return b;
+    check(material);
+    const int threads = options.threads;
+    const auto wants = [&](Map map) { return std::ranges::find(wanted, map) != wanted.end(); };
+
+    Digest heights = digest_of(material.height.texels, threads);
+    BakedMaps baked;
+    baked.input_hash = input_hash(material, heights, threads);
+    if (material.height.empty()) {
+        integrate(material, options);
+        heights = digest_of(material.height.texels, threads);
+    }
+    baked.height_scale = material.height_scale;
+    baked.zero_level = material.zero_level;
+    if (material.physical_size_m) baked.physical_size_m = *material.physical_size_m;
+    baked.notes = std::move(material.notes);
+
+    MapSet& maps = baked.maps;
+    maps.height = std::move(material.height);
+    if (wants(Map::normal))
+        maps.normal = normal_mip_chain(material.normal ? std::move(*material.normal) : normal_map(maps.height, baked.height_scale, threads), threads);
+    if (wants(Map::colour)) {
+        Image8 grey(1, 1, 4, neutral_grey);
+        grey(0, 0, 3) = 255;
+        maps.colour = colour_mip_chain(material.colour ? std::move(*material.colour) : std::move(grey), threads);
+    }
+    if (wants(Map::max_pyramid)) maps.max_pyramid = max_pyramid(maps.height, threads);  // faster to bake than to read
+    if (wants(Map::cone)) {
+        const MapKey key{.map_id = "cone", .baker_version = cone_map_version, .width = maps.height.width(), .height = maps.height.height(), .content = heights};
+        const auto folder = options.use_cache ? MapCache::default_folder() : std::nullopt;
+        if (folder)
+            if (auto cached = MapCache(*folder).find(key)) {
+                maps.cone = std::move(*cached);
+                baked.from_cache = true;
+            }
+        if (maps.cone.empty()) {
+            maps.cone = cone_map(maps.height, threads, options.progress);
+            if (folder) MapCache(*folder).store(key, maps.cone);
+        }
+    }
+    return baked;
 }
-}
+
+}  // namespace relievo

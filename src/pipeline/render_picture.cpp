@@ -4,7 +4,7 @@
 #include "assets/frame_file.h"
 #include "core/error.h"
 #include "pipeline/map_set_bake.h"
-#include "reference/cast.h"
+#include "pipeline/reference_picture.h"
 
 #include <filesystem>
 
@@ -33,13 +33,12 @@ RenderedPicture render_picture(const RenderSettings& settings, const Progress& p
     } else {
         std::vector<RayField> rays;
         for (const Vec2f offset : picture.offsets) rays.push_back(quad_rays(stage, picture.width, picture.height, Vec2d(offset)));
-        frame = reference_frame(rays, baked.maps, stage.lighting,
-                                {.height_scale = baked.height_scale,
-                                 .zero_level = baked.zero_level,
-                                 .shadow = picture.shadow == ShadowMode::hard,
-                                 .uv_at_origin = Vec2d{stage.base.periods / 2.0, stage.base.periods / 2.0},
-                                 .threads = settings.material.threads},
-                                progress);
+        frame = reference_picture(stage, baked.maps, rays,
+                                  {.height_scale = baked.height_scale,
+                                   .zero_level = baked.zero_level,
+                                   .shadow = picture.shadow == ShadowMode::hard,
+                                   .threads = settings.material.threads},
+                                  progress);
     }
     if (exr) {
         write_frame_exr(out, frame);

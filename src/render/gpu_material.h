@@ -14,6 +14,8 @@ public:
     GpuMaterial(const gpu::Device& device, const FamilyLayout& layout, const MapSet& maps, float height_scale, float zero_level);
 
     float height_scale() const { return height_scale_; }
+    // For the draws recorded from now on; normals that were made for another scale stay as they are.
+    void set_height_scale(float height_scale) { height_scale_ = height_scale; }
     float zero_level() const { return zero_level_; }
     vk::DescriptorSet maps() const { return set_.handle; }
     bool has(Map map) const { return has_[static_cast<std::size_t>(map)]; }

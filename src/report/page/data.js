@@ -142,7 +142,9 @@ function fill_legend(holder, mode) {
         return;
     }
     // A stop is [position, colour, label]; a key is [colour, label].
-    const labelled = legend.stops.filter(([, , label]) => label);
+    // A label that would run into the one before it is left out.
+    let last = -1;
+    const labelled = legend.stops.filter(([position, , label]) => label && (position - last >= 0.1 ? ((last = position), true) : false));
     const bar = legend.stops.map(([position, colour]) => `${colour} ${100 * position}%`).join(",");
     holder.replaceChildren(
         el("span", { class: "legend-title" }, legend.title + (legend.unit ? ", " + legend.unit : "")),

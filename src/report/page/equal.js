@@ -8,7 +8,7 @@ function draw_equal(state) {
     const errors = settings.map((row) => value_of(row, error.id)).filter((v) => v > 0);
     const costs = settings.map((row) => value_of(row, cost.id)).filter((v) => v > 0);
     $("equal-scope").textContent = `${page.materials[state.material].title}, ${view_title(state.material, state.plot_view)}; error is “${error.title}”, cost is “${cost.title}”. `
-        + (page.sweep.length ? "Each technique is given its best setting among those that were run." : "Only the default settings were run, so each technique has one chance.");
+        + (settings.length > rows_at(state.material, state.plot_view).length ? "Each technique is given its best setting among those that were run." : "Only the default settings were run on this view, so each technique has one chance.");
 
     const targets = [...round_steps(errors, 4).reverse(), 0];
     equal_table($("equal-error"), techniques, targets.map((v) => (v ? limit(v, error) : "0")), (t, i) =>
