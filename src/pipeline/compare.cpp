@@ -10,7 +10,7 @@
 #include "measure/error_picture.h"
 #include "measure/measure.h"
 #include "pipeline/map_set_bake.h"
-#include "reference/cast.h"
+#include "pipeline/reference_picture.h"
 #include "report/page.h"
 #include "report/pixels.h"
 #include "techniques/catalogue.h"
@@ -277,13 +277,12 @@ private:
         const Stage stage = stage_for(view);
         std::vector<RayField> rays;
         for (const Vec2f offset : picture_.offsets) rays.push_back(gpu_.rays(stage, material, settings_.width, settings_.height, offset));
-        const Frame truth = reference_frame(rays, baked.maps, stage.lighting,
-                                            {.height_scale = baked.height_scale,
-                                             .zero_level = baked.zero_level,
-                                             .shadow = settings_.shadow == ShadowMode::hard,
-                                             .uv_at_origin = Vec2d{stage.base.periods / 2.0, stage.base.periods / 2.0},
-                                             .threads = settings_.threads},
-                                            line.step(reference_units));
+        const Frame truth = reference_picture(stage, baked.maps, rays,
+                                              {.height_scale = baked.height_scale,
+                                               .zero_level = baked.zero_level,
+                                               .shadow = settings_.shadow == ShadowMode::hard,
+                                               .threads = settings_.threads},
+                                              line.step(reference_units));
         const std::string prefix = "pictures/" + place.folder + "/" + folder_name(view.id) + "-";
         const std::string reference_path = prefix + "reference.png";
 

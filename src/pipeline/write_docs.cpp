@@ -10,7 +10,7 @@
 #include "measure/hits.h"
 #include "pipeline/compare.h"
 #include "pipeline/map_set_bake.h"
-#include "reference/cast.h"
+#include "pipeline/reference_picture.h"
 #include "render/cpu_renderer.h"
 #include "render/gpu_renderer.h"
 #include "techniques/catalogue.h"
@@ -112,12 +112,8 @@ Ground make_ground(const Scene& scene, int texels, int width, int height, double
                              wanted, {.threads = threads});
     const Stage stage = stage_for(View{.id = "docs", .elevation_deg = elevation});
     ground.rays = quad_rays(stage, width, height, {0, 0});
-    ground.truth = reference_frame({&ground.rays, 1}, ground.baked.maps, stage.lighting,
-                                   {.height_scale = ground.baked.height_scale,
-                                    .zero_level = ground.baked.zero_level,
-                                    .shadow = true,
-                                    .uv_at_origin = Vec2d{stage.base.periods / 2.0, stage.base.periods / 2.0},
-                                    .threads = threads});
+    ground.truth = reference_picture(stage, ground.baked.maps, {&ground.rays, 1},
+                                     {.height_scale = ground.baked.height_scale, .zero_level = ground.baked.zero_level, .threads = threads});
     return ground;
 }
 
@@ -259,12 +255,8 @@ private:
                             wanted, {.threads = threads_});
         s.material = gpu_.upload(s.baked.maps, s.baked.height_scale, s.baked.zero_level);
         for (const Vec2f o : settings_.offsets) s.rays.push_back(gpu_.rays(s.stage, *s.material, panel_width, panel_height, o));
-        s.truth = reference_frame(s.rays, s.baked.maps, s.stage.lighting,
-                                  {.height_scale = s.baked.height_scale,
-                                   .zero_level = s.baked.zero_level,
-                                   .shadow = true,
-                                   .uv_at_origin = Vec2d{s.stage.base.periods / 2.0, s.stage.base.periods / 2.0},
-                                   .threads = threads_});
+        s.truth = reference_picture(s.stage, s.baked.maps, s.rays,
+                                    {.height_scale = s.baked.height_scale, .zero_level = s.baked.zero_level, .threads = threads_});
         return shown_.emplace(std::string(scene.id), std::move(s)).first->second;
     }
 
