@@ -44,11 +44,10 @@ void tooltip(std::string_view text) {
 
 void gap() { ImGui::Dummy({0, ImGui::GetFontSize() * 0.2f}); }
 
-void section(const char* title) {
+void section() {
     gap();
     ImGui::Separator();
     gap();
-    ImGui::TextDisabled("%s", title);
 }
 
 std::string sentence(std::string_view clause) {
@@ -87,17 +86,14 @@ void technique_menu(Controls& controls) {
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow))) step(1);
 }
 
-void about(const Technique& t) {
-    faint(sentence(t.summary));
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
-    text_view("Fails: ");
-    ImGui::PopStyleColor();
-    ImGui::SameLine(0, 0);
-    // The first line begins beside the word, so the text is a paragraph of its own below.
-    ImGui::NewLine();
-    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y);
-    faint(sentence(t.limits));
-    tooltip(std::string(t.source.author) + " " + std::to_string(t.source.year) + ": " + std::string(t.source.title));
+void about(const Technique& t, ImFont* heading) {
+    ImGui::PushFont(heading);
+    wrapped(t.title);
+    ImGui::PopFont();
+    faint(std::string(t.source.author) + " " + std::to_string(t.source.year));
+    tooltip(t.source.title);
+    wrapped(sentence(t.summary));
+    faint("Limits: " + std::string(t.limits) + ".");
 }
 
 void knob_slider(Controls& controls, const Knob& knob) {
@@ -191,6 +187,17 @@ void figures(const PanelFacts& facts) {
         "mean of the search over the pixels that meet the surface, counted on a sixteenth of them; shading and shadow excluded");
 }
 
+// At the foot of the panel, if there is room: what it says is also in the command's --help.
+void help(const std::string& device) {
+    const std::string text =
+        device + "\nLeft drag orbits, right drag moves the light, the wheel zooms, arrow keys choose the technique, Esc closes.";
+    const float wanted = ImGui::CalcTextSize(text.c_str(), nullptr, false, ImGui::GetContentRegionAvail().x).y;
+    const float room = ImGui::GetContentRegionAvail().y;
+    if (room < wanted) return;
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + room - wanted);
+    faint(text);
+}
+
 }  // namespace
 
 float panel_width(float window_width, float text_scale) {
@@ -213,13 +220,10 @@ bool draw_panel(Controls& controls, const PanelFacts& facts, const PanelSettings
     gap();
     technique_menu(controls);
     gap();
-    ImGui::PushFont(settings.heading);
-    wrapped(controls.technique->title);
-    ImGui::PopFont();
-    about(*controls.technique);
-    section("Knobs");
+    about(*controls.technique, settings.heading);
+    section();
     knob_sliders(controls);
-    section("Scene");
+    section();
     view_buttons(controls);
     const bool let_go = height_slider(controls);
     ImGui::Checkbox("Shadow", &controls.shadow);
@@ -231,11 +235,9 @@ bool draw_panel(Controls& controls, const PanelFacts& facts, const PanelSettings
         ImGui::ProgressBar(static_cast<float>(facts.reference_share), {-1, ImGui::GetFontSize() * 0.3f}, "");
         tooltip("the reference is being drawn");
     }
-    section("Cost");
+    section();
     figures(facts);
-    gap();
-    faint(facts.device);
-    faint("Left drag: orbit. Right drag: light. Wheel: zoom. Arrows: technique. Esc: close.");
+    help(facts.device);
     ImGui::End();
     return let_go;
 }

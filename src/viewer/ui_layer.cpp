@@ -11,7 +11,7 @@ namespace relievo {
 
 namespace {
 
-constexpr float text_px = 16;
+constexpr float text_px = 15;
 constexpr float heading_px = 20;
 
 // Where systems keep a plain sans-serif face. Without any, ImGui's own bitmap face is used: readable, not pretty.
@@ -45,8 +45,8 @@ void set_style(float scale) {
     style.ScrollbarRounding = 4;
     style.WindowBorderSize = 0;
     style.WindowPadding = {16, 14};
-    style.FramePadding = {8, 4};
-    style.ItemSpacing = {8, 7};
+    style.FramePadding = {8, 3};
+    style.ItemSpacing = {8, 5};
     style.ScrollbarSize = 10;
     style.GrabMinSize = 12;
     const ImVec4 accent{0.93f, 0.69f, 0.36f, 1};
