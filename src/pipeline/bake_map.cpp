@@ -57,10 +57,17 @@ Sheet sheet_of(Map map, const MapSet& maps) {
     throw UsageError("the colour map is not baked; it is the material's own picture");
 }
 
-// Values moved onto the 16-bit grid in the safe direction, so that the writer's rounding to nearest keeps them. A PNG has 1, 3 or
-// 4 channels that viewers agree on; two channels get an empty third.
-ImageF for_png(const Sheet& sheet) {
+// The nearest of the 65536 values that a reader gets back from 16 bits, or the next one in the safe direction.
+float on_grid(float value, Rounding rounding) {
     constexpr float steps = 65535.0f;
+    const float step = std::round(value * steps);
+    if (rounding == Rounding::up && step / steps < value) return (step + 1) / steps;
+    if (rounding == Rounding::down && step / steps > value) return (step - 1) / steps;
+    return step / steps;
+}
+
+// A PNG has 1, 3 or 4 channels that viewers agree on; two channels get an empty third.
+ImageF for_png(const Sheet& sheet) {
     const ImageF& in = sheet.values;
     const int channels = in.channels == 2 ? 3 : in.channels;
     ImageF out(in.width, in.height, channels);
@@ -68,9 +75,7 @@ ImageF for_png(const Sheet& sheet) {
         for (int x = 0; x < in.width; ++x)
             for (int c = 0; c < in.channels; ++c) {
                 const float value = sheet.is_signed ? in(x, y, c) * 0.5f + 0.5f : in(x, y, c);
-                const Rounding r = sheet.rounding[static_cast<std::size_t>(c)];
-                const float grid = value * steps;
-                out(x, y, c) = (r == Rounding::up ? std::ceil(grid) : r == Rounding::down ? std::floor(grid) : std::round(grid)) / steps;
+                out(x, y, c) = on_grid(value, sheet.rounding[static_cast<std::size_t>(c)]);
             }
     return out;
 }

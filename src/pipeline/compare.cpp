@@ -168,7 +168,8 @@ public:
     static void make_folder(const fs::path& folder) {
         std::error_code error;
         fs::create_directories(folder, error);
-        if (!fs::is_directory(folder, error)) throw Error("make folder", folder.string(), error ? error.message() : "a file of that name is in the way");
+        std::error_code ignored;
+        if (!fs::is_directory(folder, ignored)) throw Error("make folder", folder.string(), error ? error.message() : "a file of that name is in the way");
     }
 
 private:

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -102,6 +103,7 @@ TEST(Contract, CompareWritesTheReport) {
         EXPECT_TRUE(results["manifest"].contains(key)) << key;
     EXPECT_EQ(Json::parse(ended.out, nullptr, false), results) << "standard output holds the same JSON and nothing else";
 
+    ASSERT_TRUE(results.contains("rows"));
     const Json& rows = results["rows"];
     ASSERT_TRUE(rows.is_array());
     ASSERT_EQ(rows.size(), 2u * 3u * 2u) << "a technique named twice counts once";
@@ -143,7 +145,7 @@ TEST(Contract, CompareWritesTheReport) {
 TEST(Contract, CompareTakesNamesAsTheyCome) {
     if (!has_device()) GTEST_SKIP() << "no Vulkan device";
     const Folder folder;
-    const std::string odd = "50% <b>\"a'b\"&\u00e4 </b>";
+    const std::string odd = "50% <b>\"a'b\"&\u00e4";
     const std::vector<std::string> materials{wave_folder(folder.path() / "a" / "wall"), wave_folder(folder.path() / "b" / "wall") + "/",
                                              wave_folder(folder.path() / odd), wave_folder(folder.path() / "s p"), wave_folder(folder.path() / "s_p"), "."};
     std::vector<std::string> words{"compare", "--technique", "relief_mapping", "--view", "middle", "--out", folder / "out"};
