@@ -149,7 +149,7 @@ TEST_F(BadInput, UnusualIsNotBad) {
 TEST_F(BadInput, PlacesThatCannotBeWritten) {
     const std::string wave = wave_folder(folder.path() / "wave");
     write_text(folder / "file", "in the way");
-    for (const std::string place : {folder / "file/cone.exr", folder / "missing/cone.exr", std::string("/proc/cone.exr"), std::string("/dev/null/cone.exr")}) {
+    for (const std::string& place : {folder / "file/cone.exr", folder / "missing/cone.exr", std::string("/proc/cone.exr"), std::string("/dev/null/cone.exr")}) {
         SCOPED_TRACE(place);
         expect_failure(bake({"--material", wave}, place), {"cone.exr"});
         expect_failure(run({"render", "--material", wave, "--technique", "reference", "--size", "8x8", "--out", place}), {"cone.exr"});
@@ -160,7 +160,7 @@ TEST_F(BadInput, PlacesThatCannotBeWritten) {
 
     expect_failure(run({"docs", "--no-figures", "--quiet", "--out", folder / "file"}), {"file"});
     if (!has_device()) return;
-    for (const std::string place : {folder / "file", folder / "file/report", std::string("/proc/report")}) {
+    for (const std::string& place : {folder / "file", folder / "file/report", std::string("/proc/report")}) {
         SCOPED_TRACE(place);
         expect_failure(run({"compare", "--material", wave, "--technique", "texture_mapping", "--size", "8x8", "--runs", "1", "--out", place}), {place});
     }

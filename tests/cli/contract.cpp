@@ -111,7 +111,9 @@ TEST(Contract, CompareWritesTheReport) {
     for (const Json& row : rows) {
         expect_row(row, out);
         seen.insert(row["technique"].get<std::string>() + "|" + row["material"].get<std::string>() + "|" + row["view"].get<std::string>());
-        if (row["view"] == "27.5") EXPECT_EQ(row["elevation_deg"], 27.5);
+        if (row["view"] == "27.5") {
+            EXPECT_EQ(row["elevation_deg"], 27.5);
+        }
     }
     EXPECT_EQ(seen.size(), rows.size());
     EXPECT_TRUE(seen.contains("max_mip_tracing|wave|27.5"));

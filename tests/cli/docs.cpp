@@ -39,7 +39,9 @@ TEST(Docs, GeneratedTextsAreUpToDate) {
             << "docs/generated/" << file << " is not what the program writes; run: relievo docs --out docs/generated";
     // A technique that is gone leaves no chapter.
     for (const std::string& file : files_below(kept))
-        if (file.ends_with(".md")) EXPECT_NE(std::ranges::find(written, file), written.end()) << "docs/generated/" << file << " is no longer written; delete it";
+        if (file.ends_with(".md")) {
+            EXPECT_NE(std::ranges::find(written, file), written.end()) << "docs/generated/" << file << " is no longer written; delete it";
+        }
 }
 
 }  // namespace relievo::test

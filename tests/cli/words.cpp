@@ -124,7 +124,9 @@ TEST(Words, ListsAreTablesOrJson) {
         EXPECT_EQ(json.err, "");
         const Json rows = Json::parse(json.out, nullptr, false);
         ASSERT_TRUE(rows.is_array()) << json.out;
-        if (list != "devices") EXPECT_FALSE(rows.empty());
+        if (list != "devices") {
+            EXPECT_FALSE(rows.empty());
+        }
         for (const Json& row : rows) {
             ASSERT_TRUE(row.contains(key));
             EXPECT_NE(table.out.find(row[key].get<std::string>()), std::string::npos) << row[key] << " is missing in the table";
