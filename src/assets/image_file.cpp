@@ -246,6 +246,8 @@ void write_exr(const std::filesystem::path& file, std::span<const ExrChannel> ch
     const std::size_t count = channels.size();
     std::vector<float> texels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * count);
     OIIO::ImageSpec spec(width, height, static_cast<int>(count), OIIO::TypeDesc::FLOAT);
+    // Without a date the writer stamps the present one, and equal pictures would be unequal files.
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
     spec.channelnames.clear();
     for (std::size_t c = 0; c < count; ++c) {
         const ImageF& plane = *channels[c].image;
