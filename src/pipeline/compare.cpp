@@ -61,13 +61,13 @@ KnobValues knob_values(const Technique& technique, const MarchParams& params) {
     return values;
 }
 
-// The technique's first knob is its budget: a quarter, half and twice its default. An exact technique has none (its
+// The technique's first knob is its budget: half and twice its default. An exact technique has none (its
 // steps are a limit that it does not reach), and one without knobs is a single point.
 std::vector<Contestant> sweep_of(const Technique& technique) {
     std::vector<Contestant> result;
     if (technique.exact || technique.knobs.count == 0) return result;
     const KnobDefault& budget = *technique.knobs.begin();
-    for (const float factor : {0.25f, 0.5f, 2.0f}) {
+    for (const float factor : {0.5f, 2.0f}) {
         MarchParams params = default_params(technique);
         budget.knob->set(params, budget.value * factor);
         if (budget.knob->get(params) != budget.value) result.push_back({&technique, params, false});

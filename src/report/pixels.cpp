@@ -98,9 +98,10 @@ struct Planes {
         add((name + "_low").c_str(), [&](int x, int y) { return static_cast<std::uint8_t>(value(x, y) & 255); });
     }
     std::string script(const nlohmann::ordered_json& more = nlohmann::ordered_json::object()) const {
+        constexpr int level = 3;  // a run makes hundreds of these: speed before size
         uLongf size = compressBound(static_cast<uLong>(bytes.size()));
         std::vector<unsigned char> packed(size);
-        if (compress2(packed.data(), &size, bytes.data(), static_cast<uLong>(bytes.size()), 6) != Z_OK) throw std::bad_alloc();
+        if (compress2(packed.data(), &size, bytes.data(), static_cast<uLong>(bytes.size()), level) != Z_OK) throw std::bad_alloc();
         packed.resize(size);
         nlohmann::ordered_json payload{{"width", width}, {"height", height}, {"planes", names}};
         payload.update(more);
