@@ -2,7 +2,7 @@
 file(REMOVE_RECURSE ${SCRATCH})
 foreach(step
     "${CMAKE_COMMAND};--install;${BUILD};--prefix;${SCRATCH}/prefix"
-    "${CMAKE_COMMAND};-S;${SOURCE}/tests/install/consumer;-B;${SCRATCH}/build;-DCMAKE_PREFIX_PATH=${SCRATCH}/prefix;-DCMAKE_CXX_FLAGS=${FLAGS}"
+    "${CMAKE_COMMAND};-G;Ninja;-S;${SOURCE}/tests/install/consumer;-B;${SCRATCH}/build;-DCMAKE_PREFIX_PATH=${SCRATCH}/prefix;-DCMAKE_CXX_FLAGS=${FLAGS}"
     "${CMAKE_COMMAND};--build;${SCRATCH}/build"
     "${SCRATCH}/build/consumer")
   execute_process(COMMAND ${step} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE out)
