@@ -1,4 +1,4 @@
-# The built program in a window on a virtual display. Skipped, with a message, where there is no xvfb-run or no software Vulkan.
+# The built program in a window on a virtual display. Skipped, with a message, where there is no Xvfb or no software Vulkan.
 find_program(RELIEVO_PYTHON NAMES python3)
 if(RELIEVO_PYTHON)
   add_test(NAME viewer.window

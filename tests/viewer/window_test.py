@@ -2,7 +2,7 @@
 """window_test.py RELIEVO FOLDER: the built program in a real window, on a virtual display and software Vulkan.
 
 What the window shows is compared with what `relievo render` writes: the picture must be the same, whoever draws it.
-Exit code 77 where there is no xvfb-run.
+Exit code 77 where there is no Xvfb.
 """
 import os
 import shutil
@@ -18,7 +18,28 @@ import zlib
 PROGRAM = SCRATCH = None
 MATERIAL = ["--material", "cobbles", "--texels", "128"]
 SIZE = (960, 560)
-VIRTUAL_SCREEN = "-screen 0 1400x1000x24"
+DISPLAY = None  # of the virtual screen, ":7"
+
+
+class VirtualScreen:
+    """An Xvfb of our own for the whole test. xvfb-run ends with a code of its own when the server still writes into the folder it
+    removes ("problem while cleaning up temporary directory"), which hides the program's."""
+
+    def __enter__(self):
+        readable, writable = os.pipe()
+        # -noreset: the server stays as it is when the last window closes, instead of starting over beside the next program.
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(writable), "-screen", "0", "1400x1000x24", "-nolisten", "tcp", "-noreset"],
+                                       pass_fds=[writable], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        os.close(writable)
+        with os.fdopen(readable) as number:
+            display = number.readline().strip()  # written when the screen is ready, closed without a line when it cannot be
+        if not display:
+            raise RuntimeError("Xvfb did not start: " + self.server.communicate()[1])
+        return ":" + display
+
+    def __exit__(self, *_):
+        self.server.terminate()
+        self.server.communicate()
 
 
 def read_png(path):
@@ -70,13 +91,10 @@ def environment(**changes):
 
 
 def run(*arguments, display=True):
-    command = [PROGRAM, *arguments]
-    env = environment()
-    if display:
-        command = ["xvfb-run", "-a", "-s", VIRTUAL_SCREEN, *command]
-    else:
-        env.pop("DISPLAY", None)
-    return subprocess.run(command, env=env, capture_output=True, text=True, timeout=240)
+    env = environment(DISPLAY=DISPLAY)
+    if not display:
+        env.pop("DISPLAY")
+    return subprocess.run([PROGRAM, *arguments], env=env, capture_output=True, text=True, timeout=240)
 
 
 class Window(unittest.TestCase):
@@ -183,7 +201,7 @@ class Window(unittest.TestCase):
 
     def started(self, script):
         """A shell on a virtual display, in which the program runs until the script lets it end."""
-        return subprocess.run(["xvfb-run", "-a", "-s", VIRTUAL_SCREEN, "sh", "-c", script], env=environment(PROGRAM=PROGRAM, OUT=self.path("last.png")),
+        return subprocess.run(["sh", "-c", script], env=environment(DISPLAY=DISPLAY, PROGRAM=PROGRAM, OUT=self.path("last.png")),
                               capture_output=True, text=True, timeout=240)
 
     def test_an_interruption_leaves_nothing(self):
@@ -214,8 +232,9 @@ class Window(unittest.TestCase):
 
 if __name__ == "__main__":
     PROGRAM, SCRATCH = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
-    if not shutil.which("xvfb-run"):
-        print("skipped: xvfb-run is not installed (package xvfb)")
+    if not shutil.which("Xvfb"):
+        print("skipped: Xvfb is not installed (package xvfb)")
         sys.exit(77)
     os.makedirs(SCRATCH, exist_ok=True)
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
+    with VirtualScreen() as DISPLAY:
+        unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
