@@ -4,6 +4,8 @@
 #include "core/height_field.h"
 #include "core/image.h"
 
+#include <array>
+#include <bitset>
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +13,16 @@ namespace relievo {
 
 enum class Map : std::uint8_t { height, normal, colour, max_pyramid, cone };
 inline constexpr int map_count = 5;
+
+// Every map, in the order of the enumeration: the index of a map in arrays, and its binding on a device.
+inline constexpr std::array<Map, map_count> every_map = [] {
+    std::array<Map, map_count> all{};
+    for (int i = 0; i < map_count; ++i) all[static_cast<std::size_t>(i)] = static_cast<Map>(i);
+    return all;
+}();
+
+using MapFlags = std::bitset<map_count>;  // a set of maps, by index
+constexpr std::size_t index_of(Map map) { return static_cast<std::size_t>(map); }
 
 // Largest corner height of groups of 2^k x 2^k bilinear cells. Level 0 has one node per cell, padded (with 0, never visited)
 // to a multiple of 2^(levels-1) so that a Vulkan mip chain of the padded size has exactly these levels.

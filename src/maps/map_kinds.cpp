@@ -1,5 +1,10 @@
 #include "maps/map_kinds.h"
 
+#include "maps/cone_map.h"
+#include "maps/max_pyramid.h"
+#include "maps/mip_chain.h"
+#include "maps/normal_map.h"
+
 #include <algorithm>
 
 namespace relievo {
@@ -7,17 +12,68 @@ namespace relievo {
 namespace {
 
 constexpr MapKind table[] = {
-    {Map::height, "height", "Height", "the declared surface, bilinear between texel centres", "1 channel, [0,1], 1 is the top", "Blinn 1978"},
-    {Map::normal, "normal", "Normal", "unit normals of the relief at its height_scale, for shading and slope", "3 channels, tangent space, +Y along +v", "Cohen 1998"},
-    {Map::colour, "colour", "Colour", "albedo under white light", "RGBA, sRGB", "Catmull 1974"},
-    {Map::max_pyramid, "max_pyramid", "Pyramid of maxima", "largest corner height of 2^k x 2^k cells, so that whole regions are skipped safely", "1 channel, [0,1], a mip chain", "Tevs 2008"},
-    {Map::cone, "cone", "Cone", "widest upward cone over each texel that holds no other texel", "height and UV radius per unit of height, at most 1", "Dummer 2006"},
+    {
+        .map = Map::height,
+        .id = "height",
+        .title = "Height",
+        .summary = "the declared surface, bilinear between texel centres",
+        .format = "1 channel, [0,1], 1 is the top",
+        .source = "Blinn 1978",
+        .channels = {{{"height"}}},
+    },
+    {
+        .map = Map::normal,
+        .id = "normal",
+        .title = "Normal",
+        .summary = "unit normals of the relief at its height_scale, for shading and slope",
+        .format = "3 channels, tangent space, +Y along +v",
+        .source = "Cohen 1998",
+        .channels = {{{"normal.X"}, {"normal.Y"}, {"normal.Z"}}},
+        .bake = [](MapSet& maps, const MapBake& b) { maps.normal = normal_mip_chain(normal_map(maps.height, b.height_scale, b.threads), b.threads); },
+    },
+    {
+        .map = Map::colour,
+        .id = "colour",
+        .title = "Colour",
+        .summary = "albedo under white light",
+        .format = "RGBA, sRGB",
+        .source = "Catmull 1974",
+    },
+    {
+        .map = Map::max_pyramid,
+        .id = "max_pyramid",
+        .title = "Pyramid of maxima",
+        .summary = "largest corner height of 2^k x 2^k cells, so that whole regions are skipped safely",
+        .format = "1 channel, [0,1], a mip chain",
+        .source = "Tevs 2008",
+        .channels = {{{"maximum", Rounding::up}}},
+        .bake = [](MapSet& maps, const MapBake& b) { maps.max_pyramid = max_pyramid(maps.height, b.threads); },
+    },
+    {
+        .map = Map::cone,
+        .id = "cone",
+        .title = "Cone",
+        .summary = "widest upward cone over each texel that holds no other texel",
+        .format = "height and UV radius per unit of height, at most 1",
+        .source = "Dummer 2006",
+        .channels = {{{"height"}, {"ratio", Rounding::down}}},
+        .bake = [](MapSet& maps, const MapBake& b) { maps.cone = cone_map(maps.height, b.threads, b.progress); },
+        .image = &MapSet::cone,
+        .cached_version = 1,
+    },
 };
-static_assert(std::size(table) == map_count);
+constexpr bool in_order_of_maps() {
+    for (const Map map : every_map)
+        if (table[index_of(map)].map != map) return false;
+    return true;
+}
+static_assert(std::size(table) == map_count && in_order_of_maps(), "one row a map, in the order of enum Map");
 
 }  // namespace
 
 std::span<const MapKind> map_kinds() { return table; }
+
+const MapKind& map_kind(Map map) { return table[index_of(map)]; }
 
 const MapKind* find_map_kind(std::string_view id) {
     const auto it = std::ranges::find(table, id, &MapKind::id);

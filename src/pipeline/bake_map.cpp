@@ -4,6 +4,7 @@
 #include "assets/image_file.h"
 #include "core/error.h"
 #include "core/parallel_for.h"
+#include "maps/map_kinds.h"
 #include "pipeline/map_set_bake.h"
 
 #include <chrono>
@@ -14,17 +15,6 @@
 namespace relievo {
 
 namespace {
-
-// Which way a value may move when it is stored in 16 bits without making the map unsafe to skip by.
-enum class Rounding { nearest, up, down };
-
-// A map as it goes into a file: EXR takes the values as they are; PNG takes values in [0,1].
-struct Sheet {
-    ImageF values;
-    std::vector<std::string_view> channel_names;
-    std::vector<Rounding> rounding;
-    bool is_signed = false;  // stored in PNG as x/2 + 1/2
-};
 
 // All levels of the pyramid on one sheet: the finest at the left, the others stacked upward at its right.
 ImageF pyramid_sheet(const MaxPyramid& pyramid) {
@@ -45,16 +35,16 @@ ImageF pyramid_sheet(const MaxPyramid& pyramid) {
     return sheet;
 }
 
-Sheet sheet_of(Map map, const MapSet& maps) {
-    switch (map) {
-        case Map::height: return {maps.height.texels, {"height"}, {Rounding::nearest}};
-        case Map::normal:
-            return {maps.normal.front(), {"normal.X", "normal.Y", "normal.Z"}, {Rounding::nearest, Rounding::nearest, Rounding::nearest}, true};
-        case Map::max_pyramid: return {pyramid_sheet(maps.max_pyramid), {"maximum"}, {Rounding::up}};
-        case Map::cone: return {maps.cone, {"height", "ratio"}, {Rounding::nearest, Rounding::down}};
-        case Map::colour: break;
+// A map as it goes into a file: EXR takes the values as they are; PNG takes values in [0,1].
+ImageF sheet_of(const MapKind& kind, const MapSet& maps) {
+    if (kind.image != nullptr) return maps.*kind.image;
+    switch (kind.map) {
+        case Map::height: return maps.height.texels;
+        case Map::normal: return maps.normal.front();
+        case Map::max_pyramid: return pyramid_sheet(maps.max_pyramid);
+        default: break;
     }
-    throw UsageError("the colour map is not baked; it is the material's own picture");
+    throw UsageError("the " + std::string(kind.id) + " map is not baked; it is the material's own picture");
 }
 
 // The nearest of the 65536 values that a reader gets back from 16 bits, or the next one in the safe direction.
@@ -67,15 +57,14 @@ float on_grid(float value, Rounding rounding) {
 }
 
 // A PNG has 1, 3 or 4 channels that viewers agree on; two channels get an empty third.
-ImageF for_png(const Sheet& sheet) {
-    const ImageF& in = sheet.values;
+ImageF for_png(const MapKind& kind, const ImageF& in) {
     const int channels = in.channels == 2 ? 3 : in.channels;
     ImageF out(in.width, in.height, channels);
     for (int y = 0; y < in.height; ++y)
         for (int x = 0; x < in.width; ++x)
             for (int c = 0; c < in.channels; ++c) {
-                const float value = sheet.is_signed ? in(x, y, c) * 0.5f + 0.5f : in(x, y, c);
-                out(x, y, c) = on_grid(value, sheet.rounding[static_cast<std::size_t>(c)]);
+                const float value = kind.map == Map::normal ? in(x, y, c) * 0.5f + 0.5f : in(x, y, c);
+                out(x, y, c) = on_grid(value, kind.channels[static_cast<std::size_t>(c)].rounding);
             }
     return out;
 }
@@ -110,16 +99,17 @@ BakedMap bake_map(const BakeSettings& settings, const Progress& progress) {
         result.height = colour.height;
         write_png(out, colour, FirstRow::bottom);
     } else {
-        const Sheet sheet = sheet_of(settings.map, baked.maps);
-        result.width = sheet.values.width;
-        result.height = sheet.values.height;
+        const MapKind& kind = map_kind(settings.map);
+        const ImageF sheet = sheet_of(kind, baked.maps);
+        result.width = sheet.width;
+        result.height = sheet.height;
         if (exr) {
             std::vector<ExrChannel> channels;
-            for (int c = 0; c < sheet.values.channels; ++c)
-                channels.push_back({std::string(sheet.channel_names[static_cast<std::size_t>(c)]), &sheet.values, c});
+            for (int c = 0; c < sheet.channels; ++c)
+                channels.push_back({std::string(kind.channels[static_cast<std::size_t>(c)].name), &sheet, c});
             write_exr(out, channels, FirstRow::bottom);
         } else {
-            write_png_16(out, for_png(sheet), FirstRow::bottom);
+            write_png_16(out, for_png(kind, sheet), FirstRow::bottom);
         }
     }
     report(progress, "baking", 1);

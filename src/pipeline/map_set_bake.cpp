@@ -1,11 +1,9 @@
 #include "pipeline/map_set_bake.h"
 
 #include "core/error.h"
-#include "maps/cone_map.h"
 #include "maps/height_from_normal.h"
-#include "maps/max_pyramid.h"
+#include "maps/map_kinds.h"
 #include "maps/mip_chain.h"
-#include "maps/normal_map.h"
 #include "pipeline/map_cache.h"
 
 #include <algorithm>
@@ -16,8 +14,6 @@
 namespace relievo {
 
 namespace {
-
-constexpr std::uint32_t cone_map_version = 1;
 
 // Mid grey of a photographer's card, 50 % in linear light: shading is judged, not taste.
 constexpr std::uint8_t neutral_grey = 188;
@@ -91,25 +87,27 @@ BakedMaps bake_maps(Material material, std::span<const Map> wanted, const BakeOp
 
     MapSet& maps = baked.maps;
     maps.height = std::move(material.height);
-    if (wants(Map::normal))
-        maps.normal = normal_mip_chain(material.normal ? std::move(*material.normal) : normal_map(maps.height, baked.height_scale, threads), threads);
+    if (wants(Map::normal) && material.normal) maps.normal = normal_mip_chain(std::move(*material.normal), threads);
     if (wants(Map::colour)) {
         Image8 grey(1, 1, 4, neutral_grey);
         grey(0, 0, 3) = 255;
         maps.colour = colour_mip_chain(material.colour ? std::move(*material.colour) : std::move(grey), threads);
     }
-    if (wants(Map::max_pyramid)) maps.max_pyramid = max_pyramid(maps.height, threads);  // faster to bake than to read
-    if (wants(Map::cone)) {
-        const MapKey key{.map_id = "cone", .baker_version = cone_map_version, .width = maps.height.width(), .height = maps.height.height(), .content = heights};
-        const auto folder = options.use_cache ? MapCache::default_folder() : std::nullopt;
-        if (folder)
-            if (auto cached = MapCache(*folder).find(key)) {
-                maps.cone = std::move(*cached);
-                baked.from_cache = true;
-            }
-        if (maps.cone.empty()) {
-            maps.cone = cone_map(maps.height, threads, options.progress);
-            if (folder) MapCache(*folder).store(key, maps.cone);
+    const auto folder = options.use_cache ? MapCache::default_folder() : std::nullopt;
+    for (const MapKind& kind : map_kinds()) {
+        if (kind.bake == nullptr || !wants(kind.map) || (kind.map == Map::normal && !maps.normal.empty())) continue;
+        const MapBake bake{.height_scale = baked.height_scale, .threads = threads, .progress = options.progress};
+        if (!folder || kind.cached_version == 0) {
+            kind.bake(maps, bake);
+            continue;
+        }
+        const MapKey key{.map_id = kind.id, .baker_version = kind.cached_version, .width = maps.height.width(), .height = maps.height.height(), .content = heights};
+        if (auto cached = MapCache(*folder).find(key)) {
+            maps.*kind.image = std::move(*cached);
+            baked.from_cache = true;
+        } else {
+            kind.bake(maps, bake);
+            MapCache(*folder).store(key, maps.*kind.image);
         }
     }
     return baked;

@@ -22,15 +22,6 @@ thread_local HeightFieldFunction technique = nullptr;
 
 namespace {
 
-glsl::BoundMaps declared_maps(const MapSet& maps, const Technique& technique) {
-    glsl::BoundMaps bound = glsl::bind_maps(maps);
-    if (!technique.maps.contains(Map::height)) bound.height = nullptr;
-    if (!technique.maps.contains(Map::normal)) bound.normal = nullptr;
-    if (!technique.maps.contains(Map::max_pyramid)) bound.max_pyramid = nullptr;
-    if (!technique.maps.contains(Map::cone)) bound.cone = nullptr;
-    return bound;
-}
-
 Vec3f to_light(const Light& light, Vec3f position) {
     return light.directional ? light.position : normalize(light.position - position);
 }
@@ -41,8 +32,8 @@ Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, fl
                 const Technique& technique, const MarchParams& params, bool shadow, int threads) {
     Frame frame(rays.width, rays.height);
     frame.source = "cpu";
-    const glsl::BoundMaps searched = declared_maps(maps, technique);
-    const glsl::BoundMaps all = glsl::bind_maps(maps);
+    const glsl::BoundMaps searched = declared_maps(technique, maps);
+    const glsl::BoundMaps all{.maps = &maps, .readable = MapFlags().set()};
     const bool casts_shadow = shadow && technique.effects.self_shadow && !lighting.lights.empty();
     const float bias = casts_shadow ? shadow_bias(technique, params) : 0;
     const bool has_normals = technique.shaded_normals && !maps.normal.empty();

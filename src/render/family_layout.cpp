@@ -2,6 +2,10 @@
 
 #include "core/map_set.h"
 
+#include <array>
+#include <span>
+#include <vector>
+
 namespace relievo {
 
 namespace {
@@ -16,7 +20,7 @@ vk::raii::Sampler sampler(const gpu::Device& device, vk::Filter filter, vk::Samp
                                                    .maxLod = VK_LOD_CLAMP_NONE}};
 }
 
-vk::raii::DescriptorSetLayout set_layout(const gpu::Device& device, std::initializer_list<vk::DescriptorType> types,
+vk::raii::DescriptorSetLayout set_layout(const gpu::Device& device, std::span<const vk::DescriptorType> types,
                                          vk::ShaderStageFlags stages) {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     for (const vk::DescriptorType type : types)
@@ -49,9 +53,9 @@ FamilyLayout::FamilyLayout(const gpu::Device& device)
     : height_sampler(sampler(device, vk::Filter::eLinear, vk::SamplerMipmapMode::eNearest)),
       trilinear_sampler(sampler(device, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear)),
       nearest_sampler(sampler(device, vk::Filter::eNearest, vk::SamplerMipmapMode::eNearest)),
-      maps(set_layout(device, {image, image, image, image, image}, fragment | compute)),
-      scene(set_layout(device, {uniform, storage}, vk::ShaderStageFlagBits::eVertex | fragment)),
-      cast(set_layout(device, {storage, storage}, compute)),
+      maps(set_layout(device, std::vector(map_count, image), fragment | compute)),
+      scene(set_layout(device, std::array{uniform, storage}, vk::ShaderStageFlagBits::eVertex | fragment)),
+      cast(set_layout(device, std::array{storage, storage}, compute)),
       draw_pipeline(pipeline_layout(device, *maps, *scene, fragment)),
       cast_pipeline(pipeline_layout(device, *maps, *cast, compute)) {}
 

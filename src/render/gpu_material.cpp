@@ -75,38 +75,57 @@ gpu::Image single_texture(const gpu::Device& device, vk::Format format, const Im
         [&](int, int y, std::byte* out) { std::memcpy(out, image.at(0, y), static_cast<std::size_t>(image.width) * texel); });
 }
 
+struct Bound {
+    gpu::Image image;
+    vk::Sampler sampler;
+};
+
+// A map as its accessor expects it (shaders/hosts/heightfield/maps.glsl); one texel in its place where the set lacks it.
+Bound bound(const gpu::Device& device, const FamilyLayout& layout, Map map, const MapSet& maps) {
+    using F = vk::Format;
+    const auto flat = [&](F format, const ImageF& image, std::initializer_list<float> fallback, const char* name) {
+        return image.empty() ? plain_texture(device, format, one_texel<float>(fallback), name) : single_texture(device, format, image, name);
+    };
+    switch (map) {
+        case Map::height: return {flat(F::eR32Sfloat, maps.height.texels, {0}, "height"), *layout.height_sampler};
+        case Map::normal:
+            return {normal_texture(device, maps.normal.empty() ? one_texel<float>({0, 0, 1}) : maps.normal), *layout.trilinear_sampler};
+        case Map::colour:  // 188 is half the light, encoded
+            return {plain_texture(device, F::eR8G8B8A8Srgb, maps.colour.empty() ? one_texel<std::uint8_t>({188, 188, 188, 255}) : maps.colour, "colour"),
+                    *layout.trilinear_sampler};
+        case Map::max_pyramid:
+            return {plain_texture(device, F::eR32Sfloat, maps.max_pyramid.levels.empty() ? one_texel<float>({1}) : maps.max_pyramid.levels, "max_pyramid"),
+                    *layout.nearest_sampler};
+        case Map::cone: return {flat(F::eR32G32Sfloat, maps.cone, {0, 0}, "cone"), *layout.height_sampler};
+    }
+    return {};
+}
+
+MapFlags maps_there(const MapSet& maps) {
+    MapFlags there;
+    there[index_of(Map::height)] = !maps.height.empty();
+    there[index_of(Map::normal)] = !maps.normal.empty();
+    there[index_of(Map::colour)] = !maps.colour.empty();
+    there[index_of(Map::max_pyramid)] = !maps.max_pyramid.levels.empty();
+    there[index_of(Map::cone)] = !maps.cone.empty();
+    return there;
+}
+
 }  // namespace
 
 GpuMaterial::GpuMaterial(const gpu::Device& device, const FamilyLayout& layout, const MapSet& maps, float height_scale,
                          float zero_level)
-    : height_scale_(height_scale), zero_level_(zero_level) {
-    const auto mark = [&](Map map, bool there) { return has_[static_cast<std::size_t>(map)] = there; };
-    using F = vk::Format;
-    height_ = mark(Map::height, !maps.height.empty()) ? single_texture(device, F::eR32Sfloat, maps.height.texels, "height")
-                                                      : plain_texture(device, F::eR32Sfloat, one_texel<float>({0}), "height");
-    normal_ = mark(Map::normal, !maps.normal.empty()) ? normal_texture(device, maps.normal)
-                                                      : normal_texture(device, one_texel<float>({0, 0, 1}));
-    // 188 is half the light, encoded.
-    colour_ = mark(Map::colour, !maps.colour.empty())
-                  ? plain_texture(device, F::eR8G8B8A8Srgb, maps.colour, "colour")
-                  : plain_texture(device, F::eR8G8B8A8Srgb, one_texel<std::uint8_t>({188, 188, 188, 255}), "colour");
-    pyramid_ = mark(Map::max_pyramid, !maps.max_pyramid.levels.empty())
-                   ? plain_texture(device, F::eR32Sfloat, maps.max_pyramid.levels, "max_pyramid")
-                   : plain_texture(device, F::eR32Sfloat, one_texel<float>({1}), "max_pyramid");
-    cone_ = mark(Map::cone, !maps.cone.empty()) ? single_texture(device, F::eR32G32Sfloat, maps.cone, "cone")
-                                                : plain_texture(device, F::eR32G32Sfloat, one_texel<float>({0, 0}), "cone");
-
+    : height_scale_(height_scale), zero_level_(zero_level), has_(maps_there(maps)) {
     set_ = make_descriptor_set(device, layout.maps, {{vk::DescriptorType::eCombinedImageSampler, map_count}});
-    const vk::Sampler samplers[map_count] = {*layout.height_sampler, *layout.trilinear_sampler, *layout.trilinear_sampler,
-                                             *layout.nearest_sampler, *layout.height_sampler};
-    const gpu::Image* images[map_count] = {&height_, &normal_, &colour_, &pyramid_,
-                                           &cone_};  // the order of enum Map and of the bindings
     vk::DescriptorImageInfo infos[map_count];
     vk::WriteDescriptorSet writes[map_count];
-    for (std::uint32_t i = 0; i < map_count; ++i) {
-        infos[i] = {.sampler = samplers[i], .imageView = *images[i]->view, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
+    for (const Map map : every_map) {
+        const std::size_t i = index_of(map);
+        auto [image, sampler] = bound(device, layout, map, maps);
+        images_[i] = std::move(image);
+        infos[i] = {.sampler = sampler, .imageView = *images_[i].view, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
         writes[i] = {.dstSet = set_.handle,
-                     .dstBinding = i,
+                     .dstBinding = static_cast<std::uint32_t>(i),
                      .descriptorCount = 1,
                      .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                      .pImageInfo = &infos[i]};

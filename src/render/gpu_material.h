@@ -18,13 +18,13 @@ public:
     void set_height_scale(float height_scale) { height_scale_ = height_scale; }
     float zero_level() const { return zero_level_; }
     vk::DescriptorSet maps() const { return set_.handle; }
-    bool has(Map map) const { return has_[static_cast<std::size_t>(map)]; }
+    bool has(Map map) const { return has_[index_of(map)]; }
 
 private:
     float height_scale_;
     float zero_level_;
-    bool has_[map_count] = {};
-    gpu::Image height_, normal_, colour_, pyramid_, cone_;
+    MapFlags has_;
+    gpu::Image images_[map_count];  // the order of enum Map and of the bindings
     DescriptorSet set_;
 };
 

@@ -11,11 +11,18 @@ thread_local int fetch_count = 0;
 
 namespace {
 
-template <class T>
-const T& declared(const T* map, const char* name) {
-    if (map == nullptr) throw std::logic_error(std::string("technique reads the ") + name + " map, which its catalogue entry does not declare");
+// The maps, if the technique may use this one.
+const MapSet& declared(Map map, const char* name) {
+    if (!bound_maps.readable[index_of(map)])
+        throw std::logic_error(std::string("technique reads the ") + name + " map, which its catalogue entry does not declare");
+    return *bound_maps.maps;
+}
+
+// The same for one fetch.
+const MapSet& fetched(Map map, const char* name) {
+    const MapSet& maps = declared(map, name);
     ++fetch_count;
-    return *map;
+    return maps;
 }
 
 // The sampler's rule: bilinear between texel centres, repeat.
@@ -39,25 +46,21 @@ void sample_bilinear(const ImageF& image, vec2 uv, float* out) {
 
 }  // namespace
 
-BoundMaps bind_maps(const MapSet& maps) {
-    return {&maps.height, &maps.normal, &maps.max_pyramid, &maps.cone, {maps.height.width(), maps.height.height()}};
-}
-
-ivec2 height_size() { return bound_maps.height_size; }
+ivec2 height_size() { return {bound_maps.maps->height.width(), bound_maps.maps->height.height()}; }
 
 float height_at(vec2 uv) {
     float h = 0;
-    sample_bilinear(declared(bound_maps.height, "height").texels, uv, &h);
+    sample_bilinear(fetched(Map::height, "height").height.texels, uv, &h);
     return h;
 }
 
 vec4 height_cell(ivec2 cell) {
-    const auto c = declared(bound_maps.height, "height").cell(cell.x, cell.y);
+    const auto c = fetched(Map::height, "height").height.cell(cell.x, cell.y);
     return {c[0], c[1], c[2], c[3]};
 }
 
 vec3 normal_at(vec2 uv, float lod) {
-    const auto& chain = declared(bound_maps.normal, "normal");
+    const auto& chain = fetched(Map::normal, "normal").normal;
     const float size = static_cast<float>(std::max(chain[0].width, chain[0].height));
     const float level = clamp(lod + std::log2(size), 0.0f, static_cast<float>(chain.size() - 1));
     const auto fine = static_cast<std::size_t>(level);
@@ -71,17 +74,14 @@ vec3 normal_at(vec2 uv, float lod) {
 
 vec2 cone_at(vec2 uv) {
     float out[2];
-    sample_bilinear(declared(bound_maps.cone, "cone"), uv, out);
+    sample_bilinear(fetched(Map::cone, "cone").cone, uv, out);
     return {out[0], out[1]};
 }
 
-int max_levels() {
-    if (bound_maps.max_pyramid == nullptr) throw std::logic_error("technique uses the max_pyramid map, which its catalogue entry does not declare");
-    return static_cast<int>(bound_maps.max_pyramid->levels.size());
-}
+int max_levels() { return static_cast<int>(declared(Map::max_pyramid, "max_pyramid").max_pyramid.levels.size()); }
 
 float max_at(ivec2 node, int level) {
-    return declared(bound_maps.max_pyramid, "max_pyramid").levels[static_cast<std::size_t>(level)](node.x, node.y);
+    return fetched(Map::max_pyramid, "max_pyramid").max_pyramid.levels[static_cast<std::size_t>(level)](node.x, node.y);
 }
 
 }  // namespace relievo::glsl

@@ -41,17 +41,12 @@ inline vec3 mix(vec3 a, vec3 b, float t) { return a * (1.0f - t) + b * t; }
 #include "shared/march_params.h"
 #include "shared/shells.h"
 
-// The maps the calling thread reads and the fetches it made. A map whose pointer is null was not declared by the technique:
-// reading it throws std::logic_error, which fails the contract test that tried.
+// The maps the calling thread reads, and which of them the technique declared: reading another throws std::logic_error, which
+// fails the contract test that tried.
 struct BoundMaps {
-    const HeightField* height = nullptr;
-    const std::vector<ImageF>* normal = nullptr;
-    const MaxPyramid* max_pyramid = nullptr;
-    const ImageF* cone = nullptr;
-    ivec2 height_size{};
+    const MapSet* maps = nullptr;
+    MapFlags readable;
 };
-
-BoundMaps bind_maps(const MapSet& maps);
 
 extern thread_local BoundMaps bound_maps;
 extern thread_local int fetch_count;

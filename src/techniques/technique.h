@@ -103,6 +103,13 @@ struct Technique {
 
 constexpr Family family_of(HeightFieldFunction) { return Family::heightfield; }
 
+// The maps of a set that the technique's search may read, bound for the calling thread through glsl::bound_maps.
+inline glsl::BoundMaps declared_maps(const Technique& technique, const MapSet& maps) {
+    glsl::BoundMaps bound{.maps = &maps, .readable = {}};
+    for (const Map map : technique.maps) bound.readable.set(index_of(map));
+    return bound;
+}
+
 // The technique's knobs at their defaults; knobs it does not declare hold values it never reads.
 MarchParams default_params(const Technique& technique);
 

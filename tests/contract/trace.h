@@ -52,17 +52,6 @@ inline std::string row_name(const testing::TestParamInfo<const Technique*>& info
 // Runs the tests of a fixture derived from EveryTechnique for every row.
 #define FOR_EVERY_TECHNIQUE(Fixture) INSTANTIATE_TEST_SUITE_P(catalogue, Fixture, testing::ValuesIn(catalogue_rows()), row_name)
 
-inline glsl::BoundMaps declared_maps(const Technique& technique, const MapSet& maps) {
-    const glsl::BoundMaps all = glsl::bind_maps(maps);
-    glsl::BoundMaps bound;
-    bound.height_size = all.height_size;
-    if (technique.maps.contains(Map::height)) bound.height = all.height;
-    if (technique.maps.contains(Map::normal)) bound.normal = all.normal;
-    if (technique.maps.contains(Map::max_pyramid)) bound.max_pyramid = all.max_pyramid;
-    if (technique.maps.contains(Map::cone)) bound.cone = all.cone;
-    return bound;
-}
-
 struct Traced {
     SurfaceHit hit;
     int fetches;

@@ -174,7 +174,7 @@ protected:
         m.height = test::smooth_field(40, 24, 3);
         return m;
     }
-    static constexpr Map all[] = {Map::height, Map::normal, Map::colour, Map::max_pyramid, Map::cone};
+    static constexpr auto all = every_map;
 
 private:
     std::vector<std::pair<const char*, std::optional<std::string>>> before_;

@@ -311,7 +311,7 @@ TEST_P(EveryTechnique, castsLikeTheFunction) {
     const auto casts = renderer->cast(*material, technique, params, rays);
     ASSERT_EQ(casts.size(), rays.size());
     int different = 0;
-    glsl::bound_maps = glsl::bind_maps(maps);
+    glsl::bound_maps = glsl::BoundMaps{.maps = &maps, .readable = MapFlags().set()};
     for (std::size_t i = 0; i < rays.size(); ++i) {
         glsl::fetch_count = 0;
         const auto hit = technique.heightfield(rays[i], params);

@@ -146,7 +146,7 @@ Frame trace(const RayField& rays, const MapSet& maps, const Relief& relief, cons
     Frame frame(rays.width, rays.height);
     const Vec3f sun = stage.lighting.lights[0].position;
     parallel_for(rays.height, 4, 0, [&](int begin, int end) {
-        glsl::bound_maps = glsl::bind_maps(maps);
+        glsl::bound_maps = {.maps = &maps, .readable = MapFlags().set()};
         for (int y = begin; y < end; ++y) {
             for (int x = 0; x < rays.width; ++x) {
                 float light[3] = {0.02f, 0.02f, 0.024f};

@@ -111,7 +111,7 @@ Tally compare(const HeightField& field, long rays, const RayKind& kind, unsigned
     const int blocks = static_cast<int>((rays + block - 1) / block);
     std::vector<Tally> tallies(static_cast<std::size_t>(blocks));
     parallel_for(blocks, 1, 0, [&](int begin, int end) {
-        glsl::bound_maps = glsl::bind_maps(maps);
+        glsl::bound_maps = {.maps = &maps, .readable = MapFlags().set()};
         for (int b = begin; b < end; ++b) {
             Tally& tally = tallies[static_cast<std::size_t>(b)];
             std::mt19937_64 random(seed * 1000003ull + static_cast<unsigned>(b));

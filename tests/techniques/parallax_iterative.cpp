@@ -40,7 +40,7 @@ TEST(ParallaxIterative, arrives_on_smooth_ground_where_the_drifting_form_does_no
         const Vec2d expected = truth(maps.height, ray).uv;
         ours = std::max(ours, length(Vec2d(after(32, maps, ray).uv) - expected));
         // (u, v) <- (u, v) + n_z (s h + b) p_xy, as one often sees it written.
-        glsl::bound_maps = glsl::bind_maps(maps);
+        glsl::bound_maps = {.maps = &maps, .readable = MapFlags().set()};
         glsl::vec2 uv = ray.uv;
         for (int k = 0; k < 32; ++k)
             uv += glsl::normal_at(uv, ray.lod).z * (glsl::height_at(uv) - ray.zero_level) * height_scale * glsl::vec2(ray.view.x, ray.view.y);

@@ -43,7 +43,7 @@ TEST(ParallaxSlope, is_offset_limiting_times_the_normals_height) {
     const MapSet maps = baked_maps(rough_field(4), tall);
     bool steep = false;
     for (const SurfaceRay& ray : random_rays(300, 35, tall, 0.3f, 3)) {
-        glsl::bound_maps = glsl::bind_maps(maps);
+        glsl::bound_maps = {.maps = &maps, .readable = MapFlags().set()};
         const float slope = glsl::normal_at(ray.uv, ray.lod).z;
         steep = steep || slope < 0.6f;
         const glsl::vec2 expected = slope * shift_of("parallax_offset_limiting", maps, ray);

@@ -9,7 +9,7 @@
 int main() {
     relievo::MapSet maps;
     maps.height = relievo::HeightField(8, 8, 0.25f);
-    relievo::glsl::bound_maps = relievo::glsl::bind_maps(maps);
+    relievo::glsl::bound_maps = {.maps = &maps, .readable = relievo::MapFlags().set()};
     relievo::glsl::SurfaceRay ray{};
     ray.uv = {0.5f, 0.5f};
     ray.uv_per_height = {0.1f, 0.0f};
