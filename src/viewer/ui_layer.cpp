@@ -1,5 +1,7 @@
 #include "viewer/ui_layer.h"
 
+#include <GLFW/glfw3.h>
+
 #include <imgui.h>
 #include <imgui/backends/imgui_impl_glfw.h>
 #include <imgui/backends/imgui_impl_vulkan.h>
@@ -100,7 +102,7 @@ vk::raii::RenderPass make_pass(const gpu::Device& device, vk::Format format) {
 
 }  // namespace
 
-UiLayer::UiLayer(const Window& window, const gpu::Device& device, vk::Format format) : device_(device) {
+UiLayer::UiLayer(const Window& window, const gpu::Device& device, vk::Format format) : window_(window.handle()), device_(device) {
     pass_ = make_pass(device, format);
     const vk::DescriptorPoolSize one_face{vk::DescriptorType::eCombinedImageSampler, 1};
     // The backend frees its set by itself.
@@ -151,9 +153,18 @@ void UiLayer::set_target(const gpu::Image& image) {
                                                                                      .layers = 1});
 }
 
+// The backend of imgui 1.86 keeps only whether a key is down now: one pressed and released within a slow frame would never be seen.
+// GLFW's sticky keys (Window asks for them) stay down until they are asked about once.
+void UiLayer::hold_short_presses() const {
+    ImGuiIO& io = ImGui::GetIO();
+    for (const int key : io.KeyMap)
+        if (key >= 0) io.KeysDown[key] = glfwGetKey(window_, key) == GLFW_PRESS;  // the backend's indices are GLFW's keys
+}
+
 void UiLayer::begin_frame() const {
     ImGui_ImplVulkan_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    hold_short_presses();
     ImGui::NewFrame();
 }
 

@@ -28,6 +28,9 @@ public:
     ImFont* heading() const { return heading_; }
 
 private:
+    void hold_short_presses() const;
+
+    GLFWwindow* window_;
     const gpu::Device& device_;
     vk::raii::RenderPass pass_ = nullptr;
     vk::raii::DescriptorPool descriptors_ = nullptr;
