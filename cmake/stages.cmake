@@ -6,6 +6,7 @@ find_package(CLI11 REQUIRED)
 find_package(Vulkan REQUIRED)
 find_package(glfw3 REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(meshoptimizer REQUIRED)
 
 # Debian's OpenImageIOConfig.cmake pulls in Imath's Python bindings, which are not installed; the two libraries are all we need.
 find_library(OPENIMAGEIO_LIBRARY OpenImageIO REQUIRED)
