@@ -8,6 +8,11 @@ float height_at(vec2 uv);               // bilinear height, always of the finest
 vec4 height_cell(ivec2 cell);           // corner heights h00, h10, h01, h11 of bilinear cell [i,i+1] x [j,j+1], any integers
 vec3 normal_at(vec2 uv, float lod);     // unit normal, tangent space, +Y along +v; lod as in SurfaceRay
 vec2 cone_at(vec2 uv);                  // height and cone ratio together, bilinear
+vec2 conservative_cone_at(vec2 uv);     // the same of the conservative cones
+vec2 relaxed_cone_at(vec2 uv);          // the same of the relaxed cones
+vec2 conservative_cone(ivec2 texel);    // of one texel, any integers: a cone is safe at its own apex, blended ones need not be
+vec2 relaxed_cone(ivec2 texel);
+vec2 robust_cone(ivec2 texel);          // height of the texel, and a ratio for any point of its square
 int max_levels();                       // levels of the pyramid of maxima; no fetch
 float max_at(ivec2 node, int level);    // largest corner height in a node; node inside one period
 

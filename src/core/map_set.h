@@ -11,8 +11,8 @@
 
 namespace relievo {
 
-enum class Map : std::uint8_t { height, normal, colour, max_pyramid, cone };
-inline constexpr int map_count = 5;
+enum class Map : std::uint8_t { height, normal, colour, max_pyramid, cone, conservative_cone, relaxed_cone, robust_cone };
+inline constexpr int map_count = 8;
 
 // Every map, in the order of the enumeration: the index of a map in arrays, and its binding on a device.
 inline constexpr std::array<Map, map_count> every_map = [] {
@@ -38,6 +38,9 @@ struct MapSet {
     std::vector<Image8> colour;   // mip chain, 4 channels, sRGB-encoded
     MaxPyramid max_pyramid;       // empty until baked
     ImageF cone;                  // 2 channels: height, cone ratio (UV radius per unit of height, at most 1); empty until baked
+    ImageF conservative_cone;     // like cone, of maps/conservative_cone.h
+    ImageF relaxed_cone;          // like cone, of maps/relaxed_cone.h
+    ImageF robust_cone;           // like cone, of maps/robust_cone.h
 };
 
 }  // namespace relievo

@@ -1,9 +1,12 @@
 #include "maps/map_kinds.h"
 
 #include "maps/cone_map.h"
+#include "maps/conservative_cone.h"
 #include "maps/max_pyramid.h"
 #include "maps/mip_chain.h"
 #include "maps/normal_map.h"
+#include "maps/relaxed_cone.h"
+#include "maps/robust_cone.h"
 
 #include <algorithm>
 
@@ -59,6 +62,44 @@ constexpr MapKind table[] = {
         .channels = {{{"height"}, {"ratio", Rounding::down}}},
         .bake = [](MapSet& maps, const MapBake& b) { maps.cone = cone_map(maps.height, b.threads, b.progress); },
         .image = &MapSet::cone,
+        .cached_version = 1,
+    },
+    {
+        .map = Map::conservative_cone,
+        .id = "conservative_cone",
+        .title = "Conservative cone",
+        .summary = "widest upward cone over each texel that no point of the bilinear surface enters",
+        .format = "height and UV radius per unit of height, at most 1",
+        .source = "after Dummer 2006",
+        .channels = {{{"height", Rounding::up}, {"ratio", Rounding::down}}},
+        .bake = [](MapSet& maps, const MapBake& b) { maps.conservative_cone = conservative_cone(maps.height, b.threads, b.progress); },
+        .image = &MapSet::conservative_cone,
+        .cached_version = 1,
+    },
+    {
+        .map = Map::relaxed_cone,
+        .id = "relaxed_cone",
+        .title = "Relaxed cone",
+        .summary = "widest upward cone over each texel in which no ray from its axis leaves the solid, so that a leap ends before or in what it hits first",
+        .format = "height and UV radius per unit of height, at most 1",
+        .source = "Policarpo 2007",
+        .channels = {{{"height", Rounding::up}, {"ratio", Rounding::down}}},
+        .bake = [](MapSet& maps, const MapBake& b) { maps.relaxed_cone = relaxed_cone(maps.height, b.threads, b.progress); },
+        .image = &MapSet::relaxed_cone,
+        .cached_version = 1,
+    },
+    {
+        .map = Map::robust_cone,
+        .id = "robust_cone",
+        .title = "Robust cone",
+        .summary = "least sampled cone of each texel and its eight neighbours, for any point of the texel's square",
+        .format = "height and UV radius per unit of height, at most 1",
+        .source = "Ban 2024",
+        .channels = {{{"height", Rounding::up}, {"ratio", Rounding::down}}},
+        .bake = [](MapSet& maps, const MapBake& b) {
+            maps.robust_cone = maps.cone.empty() ? robust_cone(maps.height, b.threads, b.progress) : robust_cone_of(maps.cone, b.threads);
+        },
+        .image = &MapSet::robust_cone,
         .cached_version = 1,
     },
 };

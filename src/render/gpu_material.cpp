@@ -97,6 +97,10 @@ Bound bound(const gpu::Device& device, const FamilyLayout& layout, Map map, cons
             return {plain_texture(device, F::eR32Sfloat, maps.max_pyramid.levels.empty() ? one_texel<float>({1}) : maps.max_pyramid.levels, "max_pyramid"),
                     *layout.nearest_sampler};
         case Map::cone: return {flat(F::eR32G32Sfloat, maps.cone, {0, 0}, "cone"), *layout.height_sampler};
+        case Map::conservative_cone:
+            return {flat(F::eR32G32Sfloat, maps.conservative_cone, {0, 0}, "conservative_cone"), *layout.height_sampler};
+        case Map::relaxed_cone: return {flat(F::eR32G32Sfloat, maps.relaxed_cone, {0, 0}, "relaxed_cone"), *layout.height_sampler};
+        case Map::robust_cone: return {flat(F::eR32G32Sfloat, maps.robust_cone, {0, 0}, "robust_cone"), *layout.nearest_sampler};
     }
     return {};
 }
@@ -108,6 +112,9 @@ MapFlags maps_there(const MapSet& maps) {
     there[index_of(Map::colour)] = !maps.colour.empty();
     there[index_of(Map::max_pyramid)] = !maps.max_pyramid.levels.empty();
     there[index_of(Map::cone)] = !maps.cone.empty();
+    there[index_of(Map::conservative_cone)] = !maps.conservative_cone.empty();
+    there[index_of(Map::relaxed_cone)] = !maps.relaxed_cone.empty();
+    there[index_of(Map::robust_cone)] = !maps.robust_cone.empty();
     return there;
 }
 

@@ -44,6 +44,17 @@ void sample_bilinear(const ImageF& image, vec2 uv, float* out) {
     }
 }
 
+vec2 sampled_pair(const ImageF& image, vec2 uv) {
+    float out[2];
+    sample_bilinear(image, uv, out);
+    return {out[0], out[1]};
+}
+
+vec2 texel_pair(const ImageF& image, ivec2 texel) {
+    const float* pair = image.at(wrap_index(texel.x, image.width), wrap_index(texel.y, image.height));
+    return {pair[0], pair[1]};
+}
+
 }  // namespace
 
 ivec2 height_size() { return {bound_maps.maps->height.width(), bound_maps.maps->height.height()}; }
@@ -72,11 +83,17 @@ vec3 normal_at(vec2 uv, float lod) {
     return normalize(mix(vec3(a[0], a[1], a[2]), vec3(b[0], b[1], b[2]), level - static_cast<float>(fine)));
 }
 
-vec2 cone_at(vec2 uv) {
-    float out[2];
-    sample_bilinear(fetched(Map::cone, "cone").cone, uv, out);
-    return {out[0], out[1]};
-}
+vec2 cone_at(vec2 uv) { return sampled_pair(fetched(Map::cone, "cone").cone, uv); }
+
+vec2 conservative_cone_at(vec2 uv) { return sampled_pair(fetched(Map::conservative_cone, "conservative_cone").conservative_cone, uv); }
+
+vec2 relaxed_cone_at(vec2 uv) { return sampled_pair(fetched(Map::relaxed_cone, "relaxed_cone").relaxed_cone, uv); }
+
+vec2 conservative_cone(ivec2 texel) { return texel_pair(fetched(Map::conservative_cone, "conservative_cone").conservative_cone, texel); }
+
+vec2 relaxed_cone(ivec2 texel) { return texel_pair(fetched(Map::relaxed_cone, "relaxed_cone").relaxed_cone, texel); }
+
+vec2 robust_cone(ivec2 texel) { return texel_pair(fetched(Map::robust_cone, "robust_cone").robust_cone, texel); }
 
 int max_levels() { return static_cast<int>(declared(Map::max_pyramid, "max_pyramid").max_pyramid.levels.size()); }
 

@@ -56,6 +56,11 @@ float height_at(vec2 uv);
 vec4 height_cell(ivec2 cell);
 vec3 normal_at(vec2 uv, float lod);
 vec2 cone_at(vec2 uv);
+vec2 conservative_cone_at(vec2 uv);
+vec2 relaxed_cone_at(vec2 uv);
+vec2 conservative_cone(ivec2 texel);
+vec2 relaxed_cone(ivec2 texel);
+vec2 robust_cone(ivec2 texel);
 int max_levels();
 float max_at(ivec2 node, int level);
 

@@ -7,6 +7,9 @@ layout(set = 0, binding = 1) uniform sampler2D normal_map;   // trilinear
 layout(set = 0, binding = 2) uniform sampler2D colour_map;   // trilinear, decoded from sRGB
 layout(set = 0, binding = 3) uniform sampler2D pyramid_map;  // nearest
 layout(set = 0, binding = 4) uniform sampler2D cone_map;     // bilinear, one level
+layout(set = 0, binding = 5) uniform sampler2D conservative_cone_map;  // bilinear, one level
+layout(set = 0, binding = 6) uniform sampler2D relaxed_cone_map;       // bilinear, one level
+layout(set = 0, binding = 7) uniform sampler2D robust_cone_map;        // nearest, one level
 
 // Fetches of the search so far. The shade host never reads it, and the compiler drops it there.
 int fetch_count = 0;
@@ -37,6 +40,40 @@ vec3 normal_at(vec2 uv, float lod) {
 vec2 cone_at(vec2 uv) {
     ++fetch_count;
     return textureLod(cone_map, uv, 0.0f).xy;
+}
+
+vec2 conservative_cone_at(vec2 uv) {
+    ++fetch_count;
+    return textureLod(conservative_cone_map, uv, 0.0f).xy;
+}
+
+vec2 relaxed_cone_at(vec2 uv) {
+    ++fetch_count;
+    return textureLod(relaxed_cone_map, uv, 0.0f).xy;
+}
+
+// The texel inside the period; in GLSL the remainder of a negative number is undefined.
+ivec2 wrapped_texel(ivec2 texel, ivec2 size) {
+    vec2 periods = floor(vec2(texel) / vec2(size));
+    ivec2 rest = texel - ivec2(periods) * size;
+    // The quotient of a multiple of the size may be rounded to either side of a whole number.
+    return ivec2(rest.x < 0 ? rest.x + size.x : (rest.x >= size.x ? rest.x - size.x : rest.x),
+                 rest.y < 0 ? rest.y + size.y : (rest.y >= size.y ? rest.y - size.y : rest.y));
+}
+
+vec2 conservative_cone(ivec2 texel) {
+    ++fetch_count;
+    return texelFetch(conservative_cone_map, wrapped_texel(texel, textureSize(conservative_cone_map, 0)), 0).xy;
+}
+
+vec2 relaxed_cone(ivec2 texel) {
+    ++fetch_count;
+    return texelFetch(relaxed_cone_map, wrapped_texel(texel, textureSize(relaxed_cone_map, 0)), 0).xy;
+}
+
+vec2 robust_cone(ivec2 texel) {
+    ++fetch_count;
+    return texelFetch(robust_cone_map, wrapped_texel(texel, textureSize(robust_cone_map, 0)), 0).xy;
 }
 
 int max_levels() { return textureQueryLevels(pyramid_map); }
