@@ -2,13 +2,9 @@
 
 #include "maps/cone_search.h"
 
-namespace relievo {
+namespace relievo::cone_search {
 
-namespace {
-
-using namespace cone_search;
-
-struct RelaxedRule {
+struct RelaxedCells {
     static constexpr int channels = 4;
 
     // Somewhere in the cell H falls along some direction of the quadrant, if it falls along either of its axes on some edge.
@@ -19,67 +15,7 @@ struct RelaxedRule {
         return falls ? std::max(std::max(h[0], h[1]), std::max(h[2], h[3])) : -1.0f;
     }
 
-    // The part of an edge, [low, high] of [0,1], where a function that is linear from f0 to f1 is negative.
-    template <class Lanes>
-    struct Part {
-        Lanes low, high;
-        MaskOf<Lanes> some;
-    };
-    template <class Lanes>
-    static Part<Lanes> negative(Lanes f0, Lanes f1) {
-        const MaskOf<Lanes> first = f0 < 0.0f;
-        const MaskOf<Lanes> last = f1 < 0.0f;
-        const Lanes root = f0 / (f0 - f1);  // used only where the signs differ
-        Part<Lanes> part;
-        part.low = first ? Lanes{} : root;
-        part.high = last ? 1.0f + Lanes{} : root;
-        part.some = first | last;
-        return part;
-    }
-
-    // X Hx + Y Hy, the radial derivative times the distance, less a margin for rounding.
-    template <class Lanes>
-    static Lanes fall(Lanes x, Lanes hx, Lanes y, Lanes hy) {
-        return x * hx + y * hy - 0x1p-20f * (x * magnitude(hx) + y * magnitude(hy));
-    }
-
-    template <class Lanes>
-    static Lanes edges(const CellLanes<Lanes>& c, const Metric& m) {
-        const Lanes bx0 = c.h10 - c.h00;
-        const Lanes bx1 = c.h11 - c.h01;
-        const Lanes by0 = c.h01 - c.h00;
-        const Lanes by1 = c.h11 - c.h10;
-        const Lanes corner = fall(c.x, bx0, c.y, by0);
-        const Part<Lanes> left = negative(corner, fall(c.x, bx1, c.y + 1.0f, by0));
-        const Part<Lanes> below = negative(corner, fall(c.x + 1.0f, bx0, c.y, by1));
-        const Lanes x2 = c.x * c.x * m.u2;
-        const Lanes y2 = c.y * c.y * m.v2;
-        const Lanes v = steepest(c.h00, by0, x2, c.y, m.v2, left.low, left.high);
-        const Lanes u = steepest(c.h00, bx0, y2, c.x, m.u2, below.low, below.high);
-        const Lanes none = no_limit + Lanes{};
-        return least(left.some ? squared_ratio(c.h00, c.h01, x2, c.y, m.v2, v) : none,
-                     below.some ? squared_ratio(c.h00, c.h10, y2, c.x, m.u2, u) : none);
-    }
-
-    // d < 0, and the radial derivative, bilinear like H itself, has both signs. With a margin for rounding; inside() decides.
-    template <class Lanes>
-    static MaskOf<Lanes> may_bind_inside(const CellLanes<Lanes>& c) {
-        const Lanes bx0 = c.h10 - c.h00;
-        const Lanes bx1 = c.h11 - c.h01;
-        const Lanes by0 = c.h01 - c.h00;
-        const Lanes by1 = c.h11 - c.h10;
-        const Lanes far_x = c.x + 1.0f;
-        const Lanes far_y = c.y + 1.0f;
-        const Lanes g00 = c.x * bx0 + c.y * by0;
-        const Lanes g10 = far_x * bx0 + c.y * by1;
-        const Lanes g01 = c.x * bx1 + far_y * by0;
-        const Lanes g11 = far_x * bx1 + far_y * by1;
-        const Lanes margin = 0x1p-20f * (far_x * (magnitude(bx0) + magnitude(bx1)) + far_y * (magnitude(by0) + magnitude(by1)));
-        return (by1 - by0 <= 0x1p-20f * (magnitude(by0) + magnitude(by1))) & (least(least(g00, g10), least(g01, g11)) < margin) &
-               (most(most(g00, g10), most(g01, g11)) > -margin);
-    }
-
-    static double inside(const CellScalar& s, const Metric& m) {
+    static double inside(const Cell& s, const Metric& m, double least) {
         const double d = s.h11 - s.h10 - s.h01 + s.h00;
         if (!(d < 0)) return no_limit;
         const double bx = s.h10 - s.h00;
@@ -89,7 +25,7 @@ struct RelaxedRule {
         const double gy = (by - d * s.x) * m.height;
         const double twist2 = -2 * d * m.width * m.height;  // 2 D
         // The arc's part in this cell: Y = m / 2D and X = m / (2D t) between its sides, each side a linear condition on t.
-        double first = 0;
+        double first = 1e-12;
         double last = 1e12;
         const auto at_least = [&](double slope, double value) {  // slope t >= value
             if (slope > 0) first = std::max(first, value / slope);
@@ -101,6 +37,14 @@ struct RelaxedRule {
         at_least(gy - twist2 * s.x / m.width, -gx);
         at_least(twist2 * (s.x + 1) / m.width - gy, gx);
         if (!(first <= last)) return no_limit;
+
+        // On the arc X and Y are monotone, and the height C + D X Y is largest at one of its ends.
+        const double along0 = gx + gy * first;
+        const double along1 = gx + gy * last;
+        const double highest = at_apex + std::max(along0 * along0 / first, along1 * along1 / last) / (2 * twist2);
+        const double near_x = std::max(s.x / m.width, std::min(along0 / first, along1 / last) / twist2);
+        const double near_y = std::max(s.y / m.height, std::min(along0, along1) / twist2);
+        if (!(highest > 0) || near_x * near_x + near_y * near_y >= least * highest * highest) return no_limit;
 
         const double cd4 = 2 * at_apex * twist2;
         double steepest_slope = 0;
@@ -135,10 +79,15 @@ struct RelaxedRule {
     }
 };
 
-}  // namespace
+}  // namespace relievo::cone_search
+
+#define RELIEVO_LANES_CODE "maps/relaxed_cone_lanes.h"
+#include "core/each_machine.h"
+
+namespace relievo {
 
 ImageF relaxed_cone(const HeightField& field, int threads, const Progress& progress) {
-    return cone_search::cones<RelaxedRule>(field, threads, progress, "relaxed cone");
+    return cone_search::cones<cone_search::RelaxedCells>(field, threads, progress, "relaxed cone", RELIEVO_BEST_MACHINE(cone_search, search_relaxed));
 }
 
 }  // namespace relievo
