@@ -12,10 +12,6 @@
 #include <string_view>
 #include <vector>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
-
 namespace relievo::cone_search {
 
 constexpr int tile_w = 8;

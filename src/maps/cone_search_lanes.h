@@ -19,9 +19,9 @@ struct CellLanes {
 
 inline bool any(LaneMask mask) {
 #if RELIEVO_LANES == 16
-    return _mm512_movepi32_mask(reinterpret_cast<__m512i>(mask)) != 0;
+    return __builtin_ia32_cvtd2mask512(mask) != 0;
 #elif RELIEVO_LANES == 8
-    return _mm256_movemask_ps(reinterpret_cast<__m256>(mask)) != 0;
+    return __builtin_ia32_movmskps256(reinterpret_cast<Lanes>(mask)) != 0;
 #else
     std::uint64_t half[2];
     std::memcpy(half, &mask, sizeof half);
