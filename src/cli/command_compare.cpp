@@ -16,7 +16,7 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line) {
     struct Options {
         CompareSettings settings;
         std::vector<std::string> materials, techniques, views;
-        std::string size = "448x252", shadow = "hard";
+        std::string size = "448x252";
         int texels = 512;
         bool no_cache = false, no_sweep = false, quiet = false, json = false;
     };
@@ -31,7 +31,7 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line) {
     verb->add_option("--samples", o->settings.samples, "samples per pixel of pictures and reference: 1, 5, 9 or 25")
         ->check(CLI::IsMember({1, 5, 9, 25}))
         ->capture_default_str();
-    verb->add_option("--shadow", o->shadow, "none or hard")->check(CLI::IsMember({"none", "hard"}))->capture_default_str();
+    add_modifier_options(*verb, o->settings.options);
     verb->add_option("--texels", o->texels, "edge of the procedural materials' maps")->check(CLI::Range(1, 8192))->capture_default_str();
     verb->add_option("--device", o->settings.device, "software, or part of a device's name (relievo list devices)");
     verb->add_option("--threads", o->settings.threads, "threads of the CPU work (0: all cores)")->check(CLI::NonNegativeNumber);
@@ -51,7 +51,6 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line) {
         s.height = size.height;
         s.techniques = parse_techniques(o->techniques);
         s.views = parse_views(o->views);
-        s.shadow = o->shadow == "none" ? ShadowMode::none : ShadowMode::hard;
         s.use_cache = !o->no_cache;
         s.sweep = !o->no_sweep;
         if (o->materials.empty())

@@ -6,6 +6,7 @@
 #include "render/gpu_renderer.h"
 #include "scenes/scene.h"
 #include "techniques/catalogue.h"
+#include "techniques/modifiers.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -72,6 +73,15 @@ Json knob_rows() {
     return rows;
 }
 
+Json modifier_rows() {
+    Json rows = Json::array();
+    for (const Modifier& m : modifiers())
+        for (const ModifierValue& v : m.values)
+            rows.push_back({{"modifier", m.id}, {"value", v.id}, {"does", v.help},
+                            {"source", v.source.author.empty() ? std::string() : std::string(v.source.author) + " " + std::to_string(v.source.year)}});
+    return rows;
+}
+
 Json device_rows() {
     Json rows = Json::array();
     for (const GpuDevice& d : gpu_devices())
@@ -81,7 +91,7 @@ Json device_rows() {
 
 constexpr Listing listings[] = {
     {"techniques", technique_rows}, {"maps", map_rows},   {"scenes", scene_rows},
-    {"views", view_rows},           {"knobs", knob_rows}, {"devices", device_rows},
+    {"views", view_rows},           {"knobs", knob_rows}, {"modifiers", modifier_rows}, {"devices", device_rows},
 };
 
 std::string cell(const Json& value) {
@@ -134,10 +144,10 @@ void print_table(const Json& rows) {
 }  // namespace
 
 void add_list_command(CLI::App& app) {
-    auto* verb = app.add_subcommand("list", "Shows what there is: techniques, maps, scenes, views, knobs or devices");
+    auto* verb = app.add_subcommand("list", "Shows what there is: techniques, maps, scenes, views, knobs, modifiers or devices");
     auto what = std::make_shared<std::string>("techniques");
     auto json = std::make_shared<bool>(false);
-    verb->add_option("what", *what, "techniques | maps | scenes | views | knobs | devices")->capture_default_str();
+    verb->add_option("what", *what, "techniques | maps | scenes | views | knobs | modifiers | devices")->capture_default_str();
     verb->add_flag("--json", *json, "print JSON instead of a table");
     verb->footer("Examples:\n  relievo list\n  relievo list devices --json");
     verb->callback([what, json] {

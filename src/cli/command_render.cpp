@@ -17,7 +17,7 @@ namespace relievo {
 void add_render_command(CLI::App& app) {
     struct Options {
         RenderSettings settings;
-        std::string technique, view = "middle", size = "1280x720", shadow = "hard";
+        std::string technique, view = "middle", size = "1280x720";
         std::vector<std::string> set;
         int samples = 5;
         bool no_cache = false, json = false, quiet = false;
@@ -30,7 +30,7 @@ void add_render_command(CLI::App& app) {
     verb->add_option("--view", o->view, "grazing, middle, steep or degrees above the plane")->capture_default_str();
     verb->add_option("--size", o->size, "picture size, WIDTHxHEIGHT")->capture_default_str();
     verb->add_option("--samples", o->samples, "samples per pixel: 1, 5, 9 or 25")->check(CLI::IsMember({1, 5, 9, 25}))->capture_default_str();
-    verb->add_option("--shadow", o->shadow, "none or hard")->check(CLI::IsMember({"none", "hard"}))->capture_default_str();
+    add_modifier_options(*verb, o->settings.picture.options);
     verb->add_option("--device", o->settings.device, "software, or part of a device's name (relievo list devices)");
     verb->add_flag("--no-cache", o->no_cache, "bake every map anew");
     verb->add_flag("--quiet", o->quiet, "no progress and no notes");
@@ -52,7 +52,6 @@ void add_render_command(CLI::App& app) {
         const Size size = parse_size(o->size);
         s.picture.width = size.width;
         s.picture.height = size.height;
-        s.picture.shadow = o->shadow == "none" ? ShadowMode::none : ShadowMode::hard;
         s.picture.offsets = sample_offsets(o->samples);
         s.use_cache = !o->no_cache;
         const RenderedPicture picture = render_picture(s, progress_display(o->quiet));

@@ -20,6 +20,7 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line);
 void add_bake_command(CLI::App& app);
 void add_report_command(CLI::App& app);
 void add_view_command(CLI::App& app);
+void add_vary_command(CLI::App& app);
 void add_docs_command(CLI::App& app);
 
 }  // namespace relievo

@@ -68,6 +68,7 @@ int run(int argc, char** argv) {
     relievo::add_bake_command(app);
     relievo::add_report_command(app);
     relievo::add_list_command(app);
+    relievo::add_vary_command(app);
     relievo::add_docs_command(app);
     if (argc == 1) {
         std::fputs(app.help().c_str(), stderr);

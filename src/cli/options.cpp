@@ -4,6 +4,7 @@
 #include "core/suggest.h"
 #include "techniques/catalogue.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -34,6 +35,13 @@ std::vector<std::string> ids(const Table& table) {
     std::vector<std::string> list;
     for (const auto& entry : table) list.emplace_back(entry.id);
     return list;
+}
+
+// "--light-radius" of light_radius.
+std::string option_name(std::string_view id) {
+    std::string name = "--" + std::string(id);
+    std::ranges::replace(name, '_', '-');
+    return name;
 }
 
 std::string plain(float value) {
@@ -109,6 +117,40 @@ MarchParams parse_knobs(const Technique& technique, const std::vector<std::strin
         k.set(params, value);
     }
     return params;
+}
+
+void add_modifier_options(CLI::App& verb, DrawOptions& options) {
+    for (const Modifier& m : modifiers()) {
+        std::string help(m.help);
+        for (const ModifierValue& v : m.values) help += "\n  " + std::string(v.id) + ": " + std::string(v.help);
+        verb.add_option_function<std::string>(
+                "--" + std::string(m.id),
+                [&m, &options](const std::string& text) {
+                    const auto it = std::ranges::find(m.values, text, &ModifierValue::id);
+                    if (it == m.values.end()) throw UsageError(unknown_word(std::string(m.id), text, ids(m.values)));
+                    options.*m.choice = static_cast<int>(it - m.values.begin());
+                },
+                help)
+            ->default_str(std::string(m.value(options).id))
+            ->group("Modifiers, which work with every technique");
+        for (const ModifierNumber& n : modifier_numbers()) {
+            if (n.of != &m) continue;
+            const std::string name = option_name(n.id);
+            verb.add_option_function<std::string>(
+                    name,
+                    [&n, &options, name](const std::string& text) {
+                        float value = 0;
+                        if (!read_number(std::string_view(text), value) || !(value >= n.min && value <= n.max) ||
+                            (n.is_integer() && value != std::floor(value)))
+                            throw UsageError(name + " " + text + ": takes " + (n.is_integer() ? "a whole number" : "a number") + " from " +
+                                             plain(n.min) + " to " + plain(n.max));
+                        n.set(options, value);
+                    },
+                    std::string(n.help) + (n.unit.empty() ? "" : ", " + std::string(n.unit)))
+                ->default_str(plain(n.initial))
+                ->group("Modifiers, which work with every technique");
+        }
+    }
 }
 
 }  // namespace relievo

@@ -2,10 +2,14 @@
 #pragma once
 
 #include "scenes/view.h"
-#include "techniques/technique.h"
+#include "techniques/modifiers.h"
 
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace relievo {
 
@@ -21,5 +25,8 @@ std::vector<const Technique*> parse_techniques(const std::vector<std::string>& t
 const Technique& parse_technique(const std::string& id, const std::vector<std::string>& also = {});
 // "knob=value" settings over the technique's defaults; an undeclared knob or a value out of range is an error that says the range.
 MarchParams parse_knobs(const Technique& technique, const std::vector<std::string>& settings);
+
+// An option for each modifier (--shadow) and each number (--light-radius), which write into `options`.
+void add_modifier_options(CLI::App& verb, DrawOptions& options);
 
 }  // namespace relievo

@@ -11,8 +11,8 @@
 
 namespace relievo {
 
-enum class Map : std::uint8_t { height, normal, colour, max_pyramid, cone, conservative_cone, relaxed_cone, robust_cone };
-inline constexpr int map_count = 8;
+enum class Map : std::uint8_t { height, normal, colour, max_pyramid, cone, conservative_cone, relaxed_cone, robust_cone, horizon };
+inline constexpr int map_count = 9;
 
 // Every map, in the order of the enumeration: the index of a map in arrays, and its binding on a device.
 inline constexpr std::array<Map, map_count> every_map = [] {
@@ -41,6 +41,7 @@ struct MapSet {
     ImageF conservative_cone;     // like cone, of maps/conservative_cone.h
     ImageF relaxed_cone;          // like cone, of maps/relaxed_cone.h
     ImageF robust_cone;           // like cone, of maps/robust_cone.h
+    ImageF horizon;               // 16 channels: the horizon's elevation by direction, coded (maps/horizon_map.h); empty until baked
 };
 
 }  // namespace relievo

@@ -11,16 +11,18 @@ constexpr std::size_t staging_bytes = std::size_t{8} << 20;
 
 }  // namespace
 
-Image make_image(const Device& device, vk::Format format, vk::Extent2D extent, std::uint32_t levels, vk::ImageUsageFlags usage) {
+Image make_image(const Device& device, vk::Format format, vk::Extent2D extent, std::uint32_t levels, vk::ImageUsageFlags usage,
+                 std::uint32_t layers) {
     Image image;
     image.format = format;
     image.extent = extent;
     image.levels = levels;
+    image.layers = std::max(1u, layers);
     image.handle = vk::raii::Image(device.handle(), vk::ImageCreateInfo{.imageType = vk::ImageType::e2D,
                                                                         .format = format,
                                                                         .extent = {extent.width, extent.height, 1},
                                                                         .mipLevels = levels,
-                                                                        .arrayLayers = 1,
+                                                                        .arrayLayers = image.layers,
                                                                         .samples = vk::SampleCountFlagBits::e1,
                                                                         .tiling = vk::ImageTiling::eOptimal,
                                                                         .usage = usage,
@@ -33,9 +35,9 @@ Image make_image(const Device& device, vk::Format format, vk::Extent2D extent, s
     image.handle.bindMemory(*image.memory, 0);
     image.view = vk::raii::ImageView(
         device.handle(), vk::ImageViewCreateInfo{.image = *image.handle,
-                                                 .viewType = vk::ImageViewType::e2D,
+                                                 .viewType = layers == 0 ? vk::ImageViewType::e2D : vk::ImageViewType::e2DArray,
                                                  .format = format,
-                                                 .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, levels, 0, 1}});
+                                                 .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, levels, 0, image.layers}});
     return image;
 }
 
@@ -49,15 +51,16 @@ void transition(const vk::raii::CommandBuffer& commands, const Image& image, vk:
                                           .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                           .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                           .image = *image.handle,
-                                          .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, image.levels, 0, 1}};
+                                          .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, image.levels, 0, image.layers}};
     commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
 }
 
 Image make_texture(const Device& device, vk::Format format, vk::Extent2D extent, std::uint32_t levels, std::size_t bytes_per_texel,
-                   const WriteRow& write_row) {
+                   const WriteRow& write_row, std::uint32_t layers) {
     Image image =
         make_image(device, format, extent, levels,
-                   vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eTransferSrc);
+                   vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eTransferSrc,
+                   layers);
     const Buffer staging =
         make_buffer(device, std::max(staging_bytes, extent.width * bytes_per_texel), vk::BufferUsageFlagBits::eTransferSrc);
     device.run([&](const vk::raii::CommandBuffer& commands) {
@@ -68,12 +71,13 @@ Image make_texture(const Device& device, vk::Format format, vk::Extent2D extent,
         const std::uint32_t height = std::max(1u, extent.height >> level);
         const std::size_t row_bytes = width * bytes_per_texel;
         const auto band = static_cast<std::uint32_t>(std::min<std::size_t>(height, staging.size / row_bytes));
-        for (std::uint32_t y = 0; y < height; y += band) {
+        for (std::uint32_t first = 0; first < height * image.layers; first += std::min(band, height - first % height)) {
+            const std::uint32_t y = first % height;
             const std::uint32_t rows = std::min(band, height - y);
             for (std::uint32_t r = 0; r < rows; ++r)
-                write_row(static_cast<int>(level), static_cast<int>(y + r), staging.as<std::byte>() + r * row_bytes);
+                write_row(static_cast<int>(level), static_cast<int>(first + r), staging.as<std::byte>() + r * row_bytes);
             device.run([&](const vk::raii::CommandBuffer& commands) {
-                const vk::BufferImageCopy region{.imageSubresource = {vk::ImageAspectFlagBits::eColor, level, 0, 1},
+                const vk::BufferImageCopy region{.imageSubresource = {vk::ImageAspectFlagBits::eColor, level, first / height, 1},
                                                  .imageOffset = {0, static_cast<std::int32_t>(y), 0},
                                                  .imageExtent = {width, rows, 1}};
                 commands.copyBufferToImage(*staging.handle, *image.handle, vk::ImageLayout::eTransferDstOptimal, region);

@@ -2,6 +2,7 @@
 
 #include "maps/cone_map.h"
 #include "maps/conservative_cone.h"
+#include "maps/horizon_map.h"
 #include "maps/max_pyramid.h"
 #include "maps/mip_chain.h"
 #include "maps/normal_map.h"
@@ -100,6 +101,18 @@ constexpr MapKind table[] = {
             maps.robust_cone = maps.cone.empty() ? robust_cone(maps.height, b.threads, b.progress) : robust_cone_of(maps.cone, b.threads);
         },
         .image = &MapSet::robust_cone,
+        .cached_version = 1,
+    },
+    {
+        .map = Map::horizon,
+        .id = "horizon",
+        .title = "Horizon",
+        .summary = "elevation under which the surface hides the sky, in 16 directions, for shadows",
+        .format = "16 channels, [0,1]: the angle over 90 degrees of a relief of 0.1",
+        .source = "Max 1988",
+        .channels = {{{"horizon", Rounding::up}}},
+        .bake = [](MapSet& maps, const MapBake& b) { maps.horizon = horizon_map(maps.height, b.threads, b.progress); },
+        .image = &MapSet::horizon,
         .cached_version = 1,
     },
 };

@@ -35,9 +35,23 @@ ImageF pyramid_sheet(const MaxPyramid& pyramid) {
     return sheet;
 }
 
+// Channels beyond what a file's viewers agree on, as equal tiles from the lower left, four abreast.
+ImageF tiled(const ImageF& map) {
+    constexpr int abreast = 4;
+    const int rows = (map.channels + abreast - 1) / abreast;
+    ImageF sheet(map.width * abreast, map.height * rows, 1);
+    for (int c = 0; c < map.channels; ++c)
+        for (int y = 0; y < map.height; ++y)
+            for (int x = 0; x < map.width; ++x) sheet((c % abreast) * map.width + x, (c / abreast) * map.height + y) = map(x, y, c);
+    return sheet;
+}
+
 // A map as it goes into a file: EXR takes the values as they are; PNG takes values in [0,1].
 ImageF sheet_of(const MapKind& kind, const MapSet& maps) {
-    if (kind.image != nullptr) return maps.*kind.image;
+    if (kind.image != nullptr) {
+        const ImageF& map = maps.*kind.image;
+        return map.channels > static_cast<int>(kind.channels.size()) ? tiled(map) : map;
+    }
     switch (kind.map) {
         case Map::height: return maps.height.texels;
         case Map::normal: return maps.normal.front();

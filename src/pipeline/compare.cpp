@@ -75,14 +75,6 @@ std::vector<Contestant> sweep_of(const Technique& technique) {
     return result;
 }
 
-std::vector<Map> maps_of(const std::vector<const Technique*>& list) {
-    std::vector<Map> maps{Map::height, Map::normal, Map::colour};
-    for (const Technique* t : list)
-        for (const Map m : t->maps)
-            if (std::ranges::find(maps, m) == maps.end()) maps.push_back(m);
-    return maps;
-}
-
 TimeSpread spread(std::vector<double> ms) {
     std::ranges::sort(ms);
     const std::size_t n = ms.size();
@@ -190,7 +182,7 @@ public:
         picture_.offsets = sample_offsets(settings.samples);
         picture_.width = settings.width;
         picture_.height = settings.height;
-        picture_.shadow = settings.shadow;
+        picture_.options = settings.options;
     }
 
     Results run() {
@@ -209,7 +201,8 @@ public:
                             .height = settings_.height,
                             .runs = settings_.runs,
                             .samples_per_pixel = settings_.samples,
-                            .shadow = settings_.shadow == ShadowMode::hard ? "hard" : "none",
+                            .shadow = std::string(find_modifier("shadow")->value(settings_.options).id),
+                            .modifiers = described(settings_.options),
                             .threads = settings_.threads > 0 ? settings_.threads : default_threads(),
                             .seconds = 0,
                             .docs = {},
@@ -252,7 +245,7 @@ private:
         const std::string name = unique(material.name, names_);
         const std::string folder = unique(folder_name(material.name), folders_);
 
-        BakedMaps baked = bake_maps(std::move(material), maps_of(techniques_),
+        BakedMaps baked = bake_maps(std::move(material), maps_to_draw(techniques_, std::span(&settings_.options, 1)),
                                     {.threads = settings_.threads, .use_cache = settings_.use_cache, .progress = baking});
         results.manifest.materials.push_back({.name = name,
                                               .width = baked.maps.height.width(),
@@ -281,7 +274,7 @@ private:
         const Frame truth = reference_picture(stage, baked.maps, rays,
                                               {.height_scale = baked.height_scale,
                                                .zero_level = baked.zero_level,
-                                               .shadow = settings_.shadow == ShadowMode::hard,
+                                               .options = settings_.options,
                                                .threads = settings_.threads},
                                               line.step(reference_units));
         const std::string prefix = "pictures/" + place.folder + "/" + folder_name(view.id) + "-";
@@ -298,7 +291,7 @@ private:
                 for (const Contestant& c : sweep_of(*t)) contestants.push_back(c);
 
         std::vector<GpuRenderer::Timed> timed;
-        for (const Contestant& c : contestants) timed.push_back({c.technique, c.params});
+        for (const Contestant& c : contestants) timed.push_back({c.technique, c.params, settings_.options});
         std::vector<Frame> frames = gpu_.draw_timed(stage, material, timed, picture_, settings_.runs, line.step(drawing_units));
 
         // Pictures are encoded together at the end, on all cores.

@@ -23,7 +23,7 @@ struct CompareSettings {
     int height = 252;
     int runs = 11;                           // timed runs of each technique, interleaved
     int samples = 5;                         // samples per pixel of every picture and of the reference: 1, 5, 9 or 25
-    ShadowMode shadow = ShadowMode::hard;
+    DrawOptions options{};
     bool sweep = true;                       // also run each technique over its budget knob, for plots and equal-error tables
     bool use_cache = true;
     bool validation = false;

@@ -68,6 +68,18 @@ void integrate(Material& m, const BakeOptions& options) {
 
 }  // namespace
 
+std::vector<Map> maps_to_draw(std::span<const Technique* const> techniques, std::span<const DrawOptions> options) {
+    MapFlags needed;
+    for (const Map m : {Map::height, Map::normal, Map::colour}) needed.set(index_of(m));
+    for (const Technique* t : techniques)
+        for (const Map m : t->maps) needed.set(index_of(m));
+    for (const DrawOptions& o : options) needed |= maps_of(o);
+    std::vector<Map> maps;
+    for (const Map m : every_map)
+        if (needed[index_of(m)]) maps.push_back(m);
+    return maps;
+}
+
 BakedMaps bake_maps(Material material, std::span<const Map> wanted, const BakeOptions& options) {
     check(material);
     const int threads = options.threads;

@@ -4,6 +4,7 @@
 #include "core/map_set.h"
 #include "core/material.h"
 #include "core/progress.h"
+#include "techniques/modifiers.h"
 
 #include <optional>
 #include <span>
@@ -27,6 +28,9 @@ struct BakedMaps {
     std::string input_hash;          // of heights, normals and colours
     bool from_cache = false;         // every expensive map came from the cache
 };
+
+// The maps that these techniques need under these options, with those that every picture is shaded by; each once.
+std::vector<Map> maps_to_draw(std::span<const Technique* const> techniques, std::span<const DrawOptions> options);
 
 // Height is always there (integrated from the normals where the material has none); normal, colour, pyramid and cone if wanted.
 BakedMaps bake_maps(Material material, std::span<const Map> wanted, const BakeOptions& options);

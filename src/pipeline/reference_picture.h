@@ -5,6 +5,7 @@
 #include "core/map_set.h"
 #include "core/progress.h"
 #include "scenes/scene.h"
+#include "techniques/modifiers.h"
 
 #include <span>
 
@@ -13,7 +14,7 @@ namespace relievo {
 struct ReferencePicture {
     float height_scale = 0;
     float zero_level = 1;
-    bool shadow = true;
+    DrawOptions options{};  // a shadow that knows the light's size is judged by that of a light with one
     int threads = 0;  // 0: all cores; the picture does not depend on it
 };
 

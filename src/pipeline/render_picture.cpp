@@ -17,15 +17,14 @@ RenderedPicture render_picture(const RenderSettings& settings, const Progress& p
     const AtomicFile probe(out);  // an unwritable target is known before the work
 
     report(progress, "loading", 0);
-    std::vector<Map> wanted{Map::height, Map::normal, Map::colour};
-    if (settings.technique != nullptr)
-        for (const Map m : settings.technique->maps) wanted.push_back(m);
+    const PictureSettings& picture = settings.picture;
+    const std::size_t drawn = settings.technique != nullptr ? 1 : 0;  // the reference needs no map of a technique's or a modifier's
+    const std::vector<Map> wanted = maps_to_draw(std::span(&settings.technique, drawn), std::span(&picture.options, drawn));
     const BakedMaps baked = bake_maps(load_source(settings.material), wanted,
                                       {.threads = settings.material.threads, .use_cache = settings.use_cache, .progress = progress});
 
     report(progress, "drawing", 0);
     const Stage stage = stage_for(settings.view);
-    const PictureSettings& picture = settings.picture;
     Frame frame;
     if (settings.technique != nullptr) {
         GpuRenderer gpu(settings.device, false);
@@ -36,7 +35,7 @@ RenderedPicture render_picture(const RenderSettings& settings, const Progress& p
         frame = reference_picture(stage, baked.maps, rays,
                                   {.height_scale = baked.height_scale,
                                    .zero_level = baked.zero_level,
-                                   .shadow = picture.shadow == ShadowMode::hard,
+                                   .options = picture.options,
                                    .threads = settings.material.threads},
                                   progress);
     }

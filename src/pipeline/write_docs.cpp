@@ -104,12 +104,16 @@ struct Ground {
     Frame truth;
 };
 
+std::vector<Map> maps_of_all() {
+    std::vector<const Technique*> all;
+    for (const Technique& t : techniques()) all.push_back(&t);
+    return maps_to_draw(all, {});
+}
+
 Ground make_ground(const Scene& scene, int texels, int width, int height, double elevation, int threads) {
-    std::vector<Map> wanted;
-    for (const MapKind& m : map_kinds()) wanted.push_back(m.map);
     Ground ground{&scene, {}, {}, {}};
     ground.baked = bake_maps(load_source({.folder = std::string(scene.id), .procedural_size = texels, .threads = threads}),
-                             wanted, {.threads = threads});
+                             maps_of_all(), {.threads = threads});
     const Stage stage = stage_for(View{.id = "docs", .elevation_deg = elevation});
     ground.rays = quad_rays(stage, width, height, {0, 0});
     ground.truth = reference_picture(stage, ground.baked.maps, {&ground.rays, 1},
@@ -121,10 +125,16 @@ struct SceneErrors {
     double missed, early, p99, fetches;
 };
 
+DrawOptions unshadowed() {
+    DrawOptions options;
+    options.shadow = glsl::shadow_none;
+    return options;
+}
+
 SceneErrors errors_on(const Ground& ground, const Technique& t, int threads) {
     const Stage stage = stage_for(View{.id = "docs", .elevation_deg = measured_elevation_deg});
     const Frame frame = cpu_trace(ground.rays, ground.baked.maps, ground.baked.height_scale, ground.baked.zero_level, stage.lighting, t,
-                                  default_params(t), false, threads);
+                                  default_params(t), unshadowed(), threads);
     const HitMetrics m = hit_metrics(frame, ground.truth, ground.rays, {ground.baked.maps.height.width(), ground.baked.maps.height.height()}, threads);
     return {*m.missed_first_hit, *m.early_hit, m.uv_error_texels->p99, m.fetches->mean};
 }
@@ -171,11 +181,26 @@ std::string techniques_page() {
 
 std::string tables_page() {
     std::ostringstream out;
-    out << "# Maps, knobs, scenes and views\n\n## Maps\n\n| id | what it holds | format | source |\n|---|---|---|---|\n";
+    out << "# Maps, knobs, modifiers, scenes and views\n\n## Maps\n\n| id | what it holds | format | source |\n|---|---|---|---|\n";
     for (const MapKind& m : map_kinds()) out << "| `" << m.id << "` | " << m.summary << " | " << m.format << " | " << m.source << " |\n";
     out << "\n## Knobs\n\n| id | meaning | range | unit |\n|---|---|---|---|\n";
     for (const Knob* k : knobs)
         out << "| `" << k->id << "` | " << k->help << " | " << number(k->min, 4) << " to " << number(k->max, 4) << " | " << k->unit << " |\n";
+    out << "\n## Modifiers\n\nThey work with every technique. What a number is for stands in the last column.\n\n| modifier | value | what it does | source |\n|---|---|---|---|\n";
+    for (const Modifier& m : modifiers())
+        for (const ModifierValue& v : m.values) {
+            out << "| `" << m.id << "` | `" << v.id << "` | " << v.help << " | ";
+            if (!v.source.author.empty()) out << v.source.author << ' ' << v.source.year;
+            out << " |\n";
+        }
+    out << "\n| number | meaning | range | unit | with |\n|---|---|---|---|---|\n";
+    for (const ModifierNumber& n : modifier_numbers()) {
+        out << "| `" << n.id << "` | " << n.help << " | " << number(n.min, 4) << " to " << number(n.max, 4) << " | " << n.unit << " | ";
+        std::string with;
+        for (std::size_t i = 0; i < n.of->values.size(); ++i)
+            if ((n.values >> i & 1u) != 0) with += (with.empty() ? "" : ", ") + std::string(n.of->values[i].id);
+        out << n.of->id << ": " << with << " |\n";
+    }
     out << "\n## Scenes\n\n| id | what it is there to show | height_scale |\n|---|---|---|\n";
     for (const Scene& s : scenes()) out << "| `" << s.id << "` | " << s.summary << " | " << number(s.height_scale) << " |\n";
     out << "\n## Views\n\n| id | degrees above the plane |\n|---|---|\n";
@@ -249,10 +274,8 @@ private:
         if (found != shown_.end()) return found->second;
         Shown s;
         s.stage = stage_for(View{.id = "figure", .elevation_deg = figure_elevation_deg});
-        std::vector<Map> wanted;
-        for (const MapKind& m : map_kinds()) wanted.push_back(m.map);
         s.baked = bake_maps(load_source({.folder = std::string(scene.id), .procedural_size = figure_texels, .threads = threads_}),
-                            wanted, {.threads = threads_});
+                            maps_of_all(), {.threads = threads_});
         s.material = gpu_.upload(s.baked.maps, s.baked.height_scale, s.baked.zero_level);
         for (const Vec2f o : settings_.offsets) s.rays.push_back(gpu_.rays(s.stage, *s.material, panel_width, panel_height, o));
         s.truth = reference_picture(s.stage, s.baked.maps, s.rays,

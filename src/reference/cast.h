@@ -42,7 +42,8 @@ bool reference_shadow(const HeightField& field, const ReferenceHit& point, Vec3d
 struct ReferenceSettings {
     float height_scale = 0.05f;
     float zero_level = 1;
-    bool shadow = true;   // cast exact hard shadows from the key light (the first)
+    bool shadow = true;   // cast exact shadows from the key light (the first)
+    double light_radius_rad = 0;  // of the key light's disc (area_light.h); 0: a point, with hard shadows
     Vec2d uv_at_origin{1, 1};  // texture coordinate of the world's origin: half the quad's periods; places the hit for lights at a distance
     int threads = 0;      // 0: all cores; the result does not depend on it
 };

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/parallel_for.h"
+#include "reference/area_light.h"
 #include "reference/cell_walk.h"
 
 #include <array>
@@ -98,7 +99,7 @@ public:
             l = normalize(l);
             double visibility = 1;
             if (k == 0 && settings_.shadow) {
-                visibility = reference_shadow(maps_.height, hit, l, settings_.height_scale) ? 0 : 1;
+                visibility = key_light_share(hit, l);
                 result.key_visibility = visibility;
             }
             const double n_l = dot(n, l);
@@ -111,6 +112,12 @@ public:
     }
 
 private:
+    double key_light_share(const ReferenceHit& hit, Vec3d to_light) const {
+        if (settings_.light_radius_rad > 0)
+            return reference_light_share(maps_.height, hit, to_light, settings_.height_scale, settings_.light_radius_rad);
+        return reference_shadow(maps_.height, hit, to_light, settings_.height_scale) ? 0 : 1;
+    }
+
     const MapSet& maps_;
     const Lighting& lighting_;
     const ReferenceSettings& settings_;

@@ -14,7 +14,7 @@ thread_local HeightFieldFunction technique = nullptr;
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // shader headers hold functions that only other files call
-#include "shading/self_shadow.glsl"
+#include "shading/key_shadow.glsl"
 #pragma GCC diagnostic pop
 
 }  // namespace
@@ -29,13 +29,13 @@ Vec3f to_light(const Light& light, Vec3f position) {
 }  // namespace
 
 Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, float zero_level, const Lighting& lighting,
-                const Technique& technique, const MarchParams& params, bool shadow, int threads) {
+                const Technique& technique, const MarchParams& params, const DrawOptions& options, int threads) {
     Frame frame(rays.width, rays.height);
     frame.source = "cpu";
     const glsl::BoundMaps searched = declared_maps(technique, maps);
     const glsl::BoundMaps all{.maps = &maps, .readable = MapFlags().set()};
-    const bool casts_shadow = shadow && technique.effects.self_shadow && !lighting.lights.empty();
-    const float bias = casts_shadow ? shadow_bias(technique, params) : 0;
+    const int shadow = lighting.lights.empty() ? glsl::shadow_none : shadow_of(technique, options);
+    const float bias = shadow_bias(technique, params);
     const bool has_normals = technique.shaded_normals && !maps.normal.empty();
     parallel_for(rays.height, 8, threads, [&](int begin, int end) {
         glsl::technique = technique.heightfield;
@@ -57,8 +57,13 @@ Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, fl
                 frame.hit_height(x, y) = hit.height;
 
                 const Vec3f position(hit.uv, (hit.height - zero_level) * height_scale);
-                frame.shadow(x, y) =
-                    casts_shadow ? glsl::self_shadow(ray, hit, to_light(lighting.lights[0], position), bias, params) : 1.0f;
+                // Ways of the technique's own see its maps and no others.
+                if (!traces_shadow(shadow)) glsl::bound_maps = all;
+                if (shadow != glsl::shadow_none)
+                    frame.shadow(x, y) = glsl::key_shadow(ray, hit, to_light(lighting.lights[0], position), bias, params, shadow,
+                                                          options.numbers);
+                else
+                    frame.shadow(x, y) = 1.0f;
 
                 glsl::bound_maps = all;
                 const Vec3f normal = has_normals ? glsl::normal_at(hit.uv, ray.lod) : Vec3f{0, 0, 1};

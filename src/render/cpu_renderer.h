@@ -4,7 +4,7 @@
 #include "core/frame.h"
 #include "core/map_set.h"
 #include "scenes/scene.h"
-#include "techniques/technique.h"
+#include "techniques/modifiers.h"
 
 namespace relievo {
 
@@ -12,6 +12,6 @@ namespace relievo {
 // the same result for any number of threads (0: all cores). The search sees the maps the technique declares and no others:
 // reading another throws std::logic_error. Lights are in tangent space: its origin is UV (0,0) on the polygon, its unit one repeat.
 Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, float zero_level, const Lighting& lighting,
-                const Technique& technique, const MarchParams& params, bool shadow, int threads);
+                const Technique& technique, const MarchParams& params, const DrawOptions& options, int threads);
 
 }  // namespace relievo

@@ -11,8 +11,11 @@ namespace relievo {
 struct DrawUniforms {
     glsl::MarchParams march;
     glsl::ReliefUniforms relief;
+    glsl::DrawNumbers numbers;
 };
-static_assert(sizeof(DrawUniforms) == 8 * 4 && offsetof(DrawUniforms, relief) == 5 * 4);
+static_assert(offsetof(DrawUniforms, relief) == sizeof(glsl::MarchParams) &&
+              offsetof(DrawUniforms, numbers) == sizeof(glsl::MarchParams) + sizeof(glsl::ReliefUniforms));
+static_assert(sizeof(DrawUniforms) <= 128, "what every device takes as push constants");
 
 struct FamilyLayout {
     explicit FamilyLayout(const gpu::Device& device);

@@ -54,6 +54,26 @@ gpu::Image normal_texture(const gpu::Device& device, const std::vector<ImageF>& 
                              });
 }
 
+// As half floats: 0.04 degrees of the horizon's angle. A missing map is one texel of no horizon.
+gpu::Image horizon_texture(const gpu::Device& device, const ImageF& map) {
+    const int width = std::max(1, map.width);
+    const int height = std::max(1, map.height);
+    const auto limit = static_cast<int>(device.physical().getProperties().limits.maxImageDimension2D);
+    if (width > limit || height > limit)
+        throw Error("upload", "the horizon map", "it is larger than the " + std::to_string(limit) + " texels " + device.info().name + " takes",
+                    "scale the material down");
+    const int layers = map.empty() ? 1 : map.channels;
+    return gpu::make_texture(
+        device, vk::Format::eR16Sfloat, {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)}, 1, 2,
+        [&](int, int row, std::byte* out) {
+            for (int x = 0; x < width; ++x) {
+                const std::uint16_t texel = map.empty() ? std::uint16_t{0} : gpu::to_half(map(x, row % height, row / height));
+                std::memcpy(out + 2 * x, &texel, 2);
+            }
+        },
+        static_cast<std::uint32_t>(layers));
+}
+
 template <class T>
 std::vector<Image<T>> one_texel(std::initializer_list<T> texel) {
     Image<T> image(1, 1, static_cast<int>(texel.size()));
@@ -96,6 +116,7 @@ Bound bound(const gpu::Device& device, const FamilyLayout& layout, Map map, cons
         case Map::max_pyramid:
             return {plain_texture(device, F::eR32Sfloat, maps.max_pyramid.levels.empty() ? one_texel<float>({1}) : maps.max_pyramid.levels, "max_pyramid"),
                     *layout.nearest_sampler};
+        case Map::horizon: return {horizon_texture(device, maps.horizon), *layout.height_sampler};
         case Map::cone: return {flat(F::eR32G32Sfloat, maps.cone, {0, 0}, "cone"), *layout.height_sampler};
         case Map::conservative_cone:
             return {flat(F::eR32G32Sfloat, maps.conservative_cone, {0, 0}, "conservative_cone"), *layout.height_sampler};
@@ -115,6 +136,7 @@ MapFlags maps_there(const MapSet& maps) {
     there[index_of(Map::conservative_cone)] = !maps.conservative_cone.empty();
     there[index_of(Map::relaxed_cone)] = !maps.relaxed_cone.empty();
     there[index_of(Map::robust_cone)] = !maps.robust_cone.empty();
+    there[index_of(Map::horizon)] = !maps.horizon.empty();
     return there;
 }
 

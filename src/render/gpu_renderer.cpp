@@ -131,7 +131,7 @@ RayField GpuRenderer::rays(const Stage& stage, const GpuMaterial& material, int 
 
 Frame GpuRenderer::draw(const Stage& stage, const GpuMaterial& material, const Technique& technique, const MarchParams& params,
                         const PictureSettings& settings) {
-    const Timed one[] = {{&technique, params}};
+    const Timed one[] = {{&technique, params, settings.options}};
     return std::move(draw_timed(stage, material, one, settings, 0).front());
 }
 
@@ -146,7 +146,7 @@ std::vector<Frame> GpuRenderer::draw_timed(const Stage& stage, const GpuMaterial
             return HeightFieldPass::Draw{.host = host,
                                          .technique = t.technique,
                                          .params = t.params,
-                                         .shadow = settings.shadow == ShadowMode::hard,
+                                         .options = t.options,
                                          .material = material,
                                          .scene = s.scene,
                                          .background = stage.lighting.background};
@@ -222,7 +222,7 @@ std::vector<GpuRenderer::Cast> GpuRenderer::cast(const GpuMaterial& material, co
                 commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline);
                 commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, layout, 0, {material.maps(), set.handle}, {});
                 commands.pushConstants<DrawUniforms>(layout, vk::ShaderStageFlagBits::eCompute, 0,
-                                                     DrawUniforms{params, {material.height_scale(), material.zero_level(), 0}});
+                                                     DrawUniforms{params, {material.height_scale(), material.zero_level(), 0}, {}});
                 commands.dispatch(static_cast<std::uint32_t>((part.size() + 63) / 64), 1, 1);
                 gpu::full_barrier(commands);
             });

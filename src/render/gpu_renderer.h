@@ -5,7 +5,7 @@
 #include "core/map_set.h"
 #include "core/progress.h"
 #include "scenes/scene.h"
-#include "techniques/technique.h"
+#include "techniques/modifiers.h"
 
 #include <memory>
 #include <span>
@@ -24,15 +24,13 @@ struct GpuDevice {
 // Every Vulkan device of this machine; none if there is no Vulkan.
 std::vector<GpuDevice> gpu_devices();
 
-enum class ShadowMode { none, hard };
-
 // A material on the device: its maps uploaded once.
 class GpuMaterial;
 
 struct PictureSettings {
     int width = 0;
     int height = 0;
-    ShadowMode shadow = ShadowMode::hard;  // cast only by techniques that claim self_shadow
+    DrawOptions options{};
     std::vector<Vec2f> offsets{
         {0, 0}};  // samples per pixel, offset from its centre in pixels; colour averages them in linear light
 };
@@ -64,6 +62,7 @@ public:
     struct Timed {
         const Technique* technique;
         MarchParams params;
+        DrawOptions options{};
     };
     std::vector<Frame> draw_timed(const Stage& stage, const GpuMaterial& material, std::span<const Timed> timed,
                                   const PictureSettings& settings, int runs, const Progress& progress = {});

@@ -24,10 +24,10 @@ std::span<const std::uint32_t> words_of(std::string_view host, std::string_view 
 
 vk::Pipeline HeightFieldPass::pipeline(const Draw& draw) {
     const std::string_view id = draw.technique ? draw.technique->id : std::string_view{};
-    const bool casts_shadow = draw.shadow && draw.technique && draw.technique->effects.self_shadow;
+    const int shadow = draw.technique ? shadow_of(*draw.technique, draw.options) : glsl::shadow_none;
     const bool shaded_normals = draw.technique && draw.technique->shaded_normals;
     // The specialization constants of surface.glsl; a host that runs no technique has none and ignores them.
-    const std::array<std::uint32_t, 3> constants{casts_shadow, shaded_normals, draw.technique ? draw.scene.light_count() : 0};
+    const std::array<std::uint32_t, 3> constants{static_cast<std::uint32_t>(shadow), shaded_normals, draw.technique ? draw.scene.light_count() : 0};
     const Key key{draw.host.file, std::string(id), constants, draw.host.targets};
     auto it = pipelines_.find(key);
     if (it == pipelines_.end()) {
@@ -77,7 +77,8 @@ void HeightFieldPass::record(const vk::raii::CommandBuffer& commands, const Draw
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_.draw_pipeline, 0,
                                 {draw.material.maps(), draw.scene.set()}, {});
     const DrawUniforms uniforms{draw.params, {draw.material.height_scale(), draw.material.zero_level(),
-                                             draw.technique != nullptr ? shadow_bias(*draw.technique, draw.params) : 0}};
+                                             draw.technique != nullptr ? shadow_bias(*draw.technique, draw.params) : 0},
+                                draw.options.numbers};
     commands.pushConstants<DrawUniforms>(*layout_.draw_pipeline, vk::ShaderStageFlagBits::eFragment, 0, uniforms);
     commands.draw(4, 1, 0, 0);
     commands.endRendering();

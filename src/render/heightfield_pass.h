@@ -4,7 +4,7 @@
 #include "gpu/image.h"
 #include "render/gpu_material.h"
 #include "render/scene_binding.h"
-#include "techniques/technique.h"
+#include "techniques/modifiers.h"
 
 #include <array>
 #include <map>
@@ -37,7 +37,7 @@ public:
         const FragmentHost& host;
         const Technique* technique = nullptr;  // null for a host that runs none
         MarchParams params{};
-        bool shadow = true;  // cast by techniques that claim it
+        DrawOptions options{};
         const GpuMaterial& material;
         const SceneBinding& scene;
         Vec3f background{};  // clear value of the first target

@@ -171,6 +171,7 @@ std::string conditions(const Manifest& m) {
     item("Timed runs", m.runs > 0 ? std::to_string(m.runs) + ", interleaved" : "none");
     item("Reference", m.samples_per_pixel > 0 ? std::to_string(m.samples_per_pixel) + " samples per pixel, exact hits in double precision" : "");
     item("Self-shadow", m.shadow);
+    if (!m.modifiers.empty()) item("Modifiers", m.modifiers);
     item("Threads", std::to_string(m.threads));
     item("Took", m.seconds > 0 ? short_number(m.seconds) + " s" : "");
     item("Date", m.date);

@@ -58,7 +58,8 @@ struct Manifest {
     int height = 0;
     int runs = 0;               // timed runs per row, interleaved
     int samples_per_pixel = 0;  // of the reference image
-    std::string shadow;         // "none" or "hard"
+    std::string shadow;         // how shadows were made: an id of techniques/modifiers.h
+    std::string modifiers;      // those that were not at their defaults, "id=value" separated by blanks; may be empty
     int threads = 0;
     double seconds = 0;  // the whole comparison
     std::string docs;    // where the chapters are (folder or address); empty: the page links to none

@@ -77,7 +77,7 @@ Json row_json(const Row& r, bool with_pictures) {
 Json manifest_json(const Manifest& m) {
     Json json{{"program", "relievo"}, {"version", m.version}, {"command", m.command}, {"date", m.date},
               {"device", m.device}, {"driver", m.driver}, {"width", m.width}, {"height", m.height}, {"runs", m.runs},
-              {"samples_per_pixel", m.samples_per_pixel}, {"shadow", m.shadow}, {"threads", m.threads}, {"seconds", m.seconds},
+              {"samples_per_pixel", m.samples_per_pixel}, {"shadow", m.shadow}, {"modifiers", m.modifiers}, {"threads", m.threads}, {"seconds", m.seconds},
               {"docs", m.docs}};
     json["materials"] = Json::array();
     for (const MaterialNote& n : m.materials) {
@@ -201,6 +201,7 @@ Manifest read_manifest(const Node& node) {
     m.runs = node.at("runs").whole();
     m.samples_per_pixel = node.at("samples_per_pixel").whole();
     m.shadow = node.at("shadow").text();
+    if (node.has("modifiers")) m.modifiers = node.at("modifiers").text();  // absent before 0.2
     m.threads = node.at("threads").whole();
     m.seconds = node.at("seconds").number();
     if (node.has("docs")) m.docs = node.at("docs").text();

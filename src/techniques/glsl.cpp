@@ -95,6 +95,19 @@ vec2 relaxed_cone(ivec2 texel) { return texel_pair(fetched(Map::relaxed_cone, "r
 
 vec2 robust_cone(ivec2 texel) { return texel_pair(fetched(Map::robust_cone, "robust_cone").robust_cone, texel); }
 
+float horizon_at(vec2 uv, int direction) {
+    const ImageF& map = fetched(Map::horizon, "horizon").horizon;
+    const float x = uv.x * static_cast<float>(map.width) - 0.5f;
+    const float y = uv.y * static_cast<float>(map.height) - 0.5f;
+    const float fx = x - std::floor(x);
+    const float fy = y - std::floor(y);
+    const int i0 = wrap_index(static_cast<int>(std::floor(x)), map.width);
+    const int j0 = wrap_index(static_cast<int>(std::floor(y)), map.height);
+    const int i1 = i0 + 1 == map.width ? 0 : i0 + 1;
+    const int j1 = j0 + 1 == map.height ? 0 : j0 + 1;
+    return mix(mix(map(i0, j0, direction), map(i1, j0, direction), fx), mix(map(i0, j1, direction), map(i1, j1, direction), fx), fy);
+}
+
 int max_levels() { return static_cast<int>(declared(Map::max_pyramid, "max_pyramid").max_pyramid.levels.size()); }
 
 float max_at(ivec2 node, int level) {

@@ -25,6 +25,11 @@ inline float floor(float x) { return std::floor(x); }
 inline float sqrt(float x) { return std::sqrt(x); }
 inline float exp2(float x) { return std::exp2(x); }
 inline float log2(float x) { return std::log2(x); }
+inline float sin(float x) { return std::sin(x); }
+inline float cos(float x) { return std::cos(x); }
+inline float tan(float x) { return std::tan(x); }
+inline float asin(float x) { return std::asin(x); }
+inline float atan(float x) { return std::atan(x); }
 inline float pow(float x, float y) { return std::pow(x, y); }
 inline float fract(float x) { return x - std::floor(x); }
 inline float min(float a, float b) { return b < a ? b : a; }
@@ -37,6 +42,7 @@ inline float mix(float a, float b, float t) { return a * (1.0f - t) + b * t; }
 inline vec2 floor(vec2 v) { return {std::floor(v.x), std::floor(v.y)}; }
 inline vec3 mix(vec3 a, vec3 b, float t) { return a * (1.0f - t) + b * t; }
 
+#include "shared/draw_options.h"
 #include "shared/heightfield.h"
 #include "shared/march_params.h"
 #include "shared/shells.h"
@@ -61,6 +67,7 @@ vec2 relaxed_cone_at(vec2 uv);
 vec2 conservative_cone(ivec2 texel);
 vec2 relaxed_cone(ivec2 texel);
 vec2 robust_cone(ivec2 texel);
+float horizon_at(vec2 uv, int direction);
 int max_levels();
 float max_at(ivec2 node, int level);
 

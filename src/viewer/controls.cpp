@@ -61,8 +61,11 @@ Stage Controls::stage() const {
     return stage;
 }
 
-std::array<double, 7> Controls::scene_numbers() const {
-    return {view.elevation_deg, view.azimuth_deg, zoom, light_azimuth_deg, light_elevation_deg, height_scale, shadow ? 1.0 : 0.0};
+std::vector<double> Controls::scene_numbers() const {
+    std::vector<double> numbers{view.elevation_deg, view.azimuth_deg, zoom, light_azimuth_deg, light_elevation_deg, height_scale};
+    for (const Modifier& m : modifiers()) numbers.push_back(options.*m.choice);
+    for (const ModifierNumber& n : modifier_numbers()) numbers.push_back(n.get(options));
+    return numbers;
 }
 
 Controls opening_controls(const Technique& technique, const View& view, float height_scale) {

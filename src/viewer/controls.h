@@ -3,10 +3,10 @@
 
 #include "scenes/scene.h"
 #include "scenes/view.h"
-#include "techniques/technique.h"
+#include "techniques/modifiers.h"
 
-#include <array>
 #include <map>
+#include <vector>
 
 namespace relievo {
 
@@ -15,7 +15,7 @@ struct Controls {
     std::map<const Knob*, float>
         turned;  // knobs that were moved; a knob means the same everywhere, so they hold for every technique
     float height_scale = 0;
-    bool shadow = true;
+    DrawOptions options{};
     bool split = false;
     float divider = 0.5f;  // share of the picture left of it: the technique; right of it: the reference
 
@@ -36,7 +36,7 @@ struct Controls {
 
     Stage stage() const;
     // Two controls with equal numbers have the same reference picture.
-    std::array<double, 7> scene_numbers() const;
+    std::vector<double> scene_numbers() const;
 };
 
 // Those a window opens with.

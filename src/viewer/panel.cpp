@@ -136,6 +136,48 @@ void knob_sliders(Controls& controls) {
         for (const KnobDefault& d : controls.technique->knobs) controls.turned.erase(d.knob);
 }
 
+void number_slider(Controls& controls, const ModifierNumber& number) {
+    ImGui::PushID(&number);
+    text_view(number.title);
+    tooltip(number.help);
+    ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.52f);
+    ImGui::SetNextItemWidth(-1);
+    float value = number.get(controls.options);
+    char format[32];
+    std::snprintf(format, sizeof format, "%%.%df %.*s",
+                  std::max(0, static_cast<int>(std::ceil(-std::log10(number.step) - 0.01f))), static_cast<int>(number.unit.size()),
+                  number.unit.data());
+    if (ImGui::SliderFloat("##number", &value, number.min, number.max, format, ImGuiSliderFlags_AlwaysClamp))
+        number.set(controls.options, value);
+    tooltip(std::string(number.help) + ". Ctrl-click to type a number.");
+    ImGui::PopID();
+}
+
+// A menu for each modifier, and under it the numbers that count with what is chosen.
+void modifier_menus(Controls& controls) {
+    if (!ImGui::CollapsingHeader("Modifiers")) return;
+    for (const Modifier& m : modifiers()) {
+        ImGui::PushID(&m);
+        text_view(m.title);
+        tooltip(sentence(m.help));
+        ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.52f);
+        ImGui::SetNextItemWidth(-1);
+        if (ImGui::BeginCombo("##choice", std::string(m.value(controls.options).id).c_str())) {
+            for (std::size_t i = 0; i < m.values.size(); ++i) {
+                const int index = static_cast<int>(i);
+                if (ImGui::Selectable(std::string(m.values[i].id).c_str(), controls.options.*m.choice == index))
+                    controls.options.*m.choice = index;
+                tooltip(sentence(m.values[i].help));
+            }
+            ImGui::EndCombo();
+        }
+        tooltip(sentence(m.value(controls.options).help));
+        ImGui::PopID();
+        for (const ModifierNumber& n : modifier_numbers())
+            if (n.of == &m && n.counts(controls.options)) number_slider(controls, n);
+    }
+}
+
 void view_buttons(Controls& controls) {
     const auto table = views();
     const float space = ImGui::GetStyle().ItemSpacing.x;
@@ -226,15 +268,13 @@ bool draw_panel(Controls& controls, const PanelFacts& facts, const PanelSettings
     section();
     view_buttons(controls);
     const bool let_go = height_slider(controls);
-    ImGui::Checkbox("Shadow", &controls.shadow);
-    tooltip("hard shadow of the key light, by techniques that find a hit; the reference always has it when this is on");
-    ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.52f);
     ImGui::Checkbox("Split", &controls.split);
     tooltip("the exact reference right of a divider that can be dragged");
     if (controls.split && facts.reference_share < 1) {
         ImGui::ProgressBar(static_cast<float>(facts.reference_share), {-1, ImGui::GetFontSize() * 0.3f}, "");
         tooltip("the reference is being drawn");
     }
+    modifier_menus(controls);
     section();
     figures(facts);
     help(facts.device);

@@ -111,7 +111,7 @@ void ReferenceWorker::work() {
 
 void ReferenceWorker::draw(const Request& request, std::uint64_t number) {
     const ReferencePicture settings{
-        .height_scale = request.height_scale, .zero_level = request.zero_level, .shadow = request.shadow, .threads = threads_};
+        .height_scale = request.height_scale, .zero_level = request.zero_level, .options = request.options, .threads = threads_};
     for (const int scale : levels) {
         // The first level is always finished: while the hand moves, every request is outdated as soon as it is made.
         const bool coarsest = scale == levels.front();

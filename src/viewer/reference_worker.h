@@ -5,6 +5,7 @@
 #include "core/image.h"
 #include "core/map_set.h"
 #include "scenes/scene.h"
+#include "techniques/modifiers.h"
 
 #include <condition_variable>
 #include <cstdint>
@@ -23,7 +24,7 @@ public:
         int height = 0;
         float height_scale = 0;
         float zero_level = 1;
-        bool shadow = true;
+        DrawOptions options{};
     };
 
     // The maps are read from another thread until forget() or the end; they must hold height, normal and colour.

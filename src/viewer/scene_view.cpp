@@ -69,7 +69,7 @@ HeightFieldPass::Draw SceneView::draw(const Controls& controls, const FragmentHo
     return {.host = host,
             .technique = controls.technique,
             .params = controls.params(),
-            .shadow = controls.shadow,
+            .options = controls.options,
             .material = *material_,
             .scene = scene_,
             .background = &host == &shade_host_ ? background_ : Vec3f{}};
@@ -78,7 +78,7 @@ HeightFieldPass::Draw SceneView::draw(const Controls& controls, const FragmentHo
 double SceneView::mean_fetches(const Controls& controls) {
     scene_.update(controls.stage(), static_cast<int>(probe_.extent.width), static_cast<int>(probe_.extent.height), {0, 0});
     Controls without_shadow = controls;
-    without_shadow.shadow = false;  // its search is not counted, so it need not be made
+    without_shadow.options.shadow = glsl::shadow_none;  // its search is not counted, so it need not be made
     const auto what = draw(without_shadow, record_host_);
     pass_.pipeline(what);
     device_.run([&](const vk::raii::CommandBuffer& commands) {

@@ -149,8 +149,8 @@ private:
         scene_.set_size(extent, {{static_cast<std::int32_t>(left), 0}, {std::max(1u, extent.width - left), extent.height}});
         ui_.set_target(scene_.canvas());
         reference_seen_ = 0;
-        reference_of_.fill(0);
-        fetches_of_.fill(0);
+        reference_of_.clear();
+        fetches_of_.clear();
         changed_ = true;
     }
 
@@ -158,8 +158,8 @@ private:
     void update_reference(bool whole) {
         if (!controls_.split) return;
         const auto extent = scene_.picture().extent;
-        std::array<double, 9> now{static_cast<double>(extent.width), static_cast<double>(extent.height)};
-        std::ranges::copy(controls_.scene_numbers(), now.begin() + 2);
+        std::vector<double> now = controls_.scene_numbers();
+        now.insert(now.end(), {static_cast<double>(extent.width), static_cast<double>(extent.height)});
         if (now != reference_of_) {
             reference_of_ = now;
             worker_.ask({.stage = controls_.stage(),
@@ -167,7 +167,7 @@ private:
                          .height = static_cast<int>(extent.height),
                          .height_scale = controls_.height_scale,
                          .zero_level = baked_.zero_level,
-                         .shadow = controls_.shadow});
+                         .options = controls_.options});
         }
         if (whole) worker_.wait();
         const auto state = worker_.state();
@@ -178,11 +178,10 @@ private:
     }
 
     void update_fetches() {
-        std::array<double, 15> now{static_cast<double>(scene_.picture().extent.width),
-                                   static_cast<double>(scene_.picture().extent.height)};
-        std::ranges::copy(controls_.scene_numbers(), now.begin() + 2);
+        std::vector<double> now = controls_.scene_numbers();
+        now.insert(now.end(), {static_cast<double>(scene_.picture().extent.width), static_cast<double>(scene_.picture().extent.height)});
         const MarchParams params = controls_.params();
-        std::ranges::transform(knobs, now.begin() + 9, [&](const Knob* knob) { return knob->get(params); });
+        for (const Knob* knob : knobs) now.push_back(knob->get(params));
         if (now == fetches_of_ && fetches_technique_ == controls_.technique) return;
         fetches_of_ = now;
         fetches_technique_ = controls_.technique;
@@ -194,7 +193,7 @@ private:
         scale_slopes(baked_.maps.normal, controls_.height_scale / baked_.height_scale);
         baked_.height_scale = controls_.height_scale;
         scene_.set_material(baked_);
-        reference_of_.fill(0);
+        reference_of_.clear();
     }
 
     // False if the window had changed, so that the frame was not shown.
@@ -267,8 +266,8 @@ private:
     std::vector<float> technique_ms_;
     float panel_points_ = 0;
     std::uint64_t reference_seen_ = 0;
-    std::array<double, 9> reference_of_{};  // what the last request was for
-    std::array<double, 15> fetches_of_{};
+    std::vector<double> reference_of_;  // what the last request was for
+    std::vector<double> fetches_of_;
     const Technique* fetches_technique_ = nullptr;
     bool drawn_ = false;  // a frame at the present size
     bool changed_ = false;

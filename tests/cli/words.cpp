@@ -71,7 +71,10 @@ TEST(Words, WrongValuesSayWhatIsRight) {
     expect_wrong({"bake", "--material", "cobbles", "--map", "colour", "--out", folder / "colour.exr"}, {".png"});
     expect_wrong({"compare", "--runs", "0", "--out", png}, {"--runs", "1 to 10000"});
     expect_wrong({"compare", "--samples", "4", "--out", png}, {"--samples", "1,5,9,25"});
-    expect_wrong({"compare", "--shadow", "soft", "--out", png}, {"none,hard"});
+    expect_wrong({"compare", "--shadow", "horizons", "--out", png}, {"shadow", "horizon"});
+    expect_wrong({"compare", "--light-radius", "90", "--out", png}, {"--light-radius", "0 to 20"});
+    expect_wrong({"render", "--material", "cobbles", "--technique", "reference", "--shadow-samples", "2.5", "--out", png}, {"whole number"});
+    expect_wrong({"vary", "shadw"}, {"modifier", "shadow"});
     expect_wrong({"compare", "--threads", "-1", "--out", png}, {"--threads"});
     expect_wrong({"compare", "--texels", "0", "--out", png}, {"--texels"});
     expect_wrong({"compare", "--technique", ",", "--out", png}, {"--technique"});
@@ -113,7 +116,8 @@ TEST(Words, HelpOfEveryVerbHasAnExampleAndEveryOptionAText) {
 
 TEST(Words, ListsAreTablesOrJson) {
     const std::vector<std::pair<std::string, std::string>> lists{{"techniques", "id"}, {"maps", "id"},     {"scenes", "id"},
-                                                                 {"views", "id"},      {"knobs", "id"},    {"devices", "name"}};
+                                                                 {"views", "id"},      {"knobs", "id"},    {"devices", "name"},
+                                                                 {"modifiers", "value"}};
     for (const auto& [list, key] : lists) {
         SCOPED_TRACE(list);
         const Ended table = run({"list", list});

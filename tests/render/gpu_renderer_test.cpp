@@ -216,8 +216,10 @@ TEST_F(OnGpu, shadowFallsAwayFromTheLight) {
         normalize(Vec3f{1, 0, 1});  // from +u, 45 degrees up: the shadow is as long as the step is high
     const Technique& exact = *find_technique("max_mip_tracing");
     const Frame frame = renderer->draw(stage, *on_device, exact, default_params(exact), {.width = width, .height = height});
+    DrawOptions unshadowed;
+    unshadowed.shadow = glsl::shadow_none;
     const Frame unlit = renderer->draw(stage, *on_device, exact, default_params(exact),
-                                       {.width = width, .height = height, .shadow = ShadowMode::none});
+                                       {.width = width, .height = height, .options = unshadowed});
     int shadowed = 0;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
@@ -258,7 +260,7 @@ TEST_P(EveryTechnique, drawsWhatTheCpuTraces) {
         const Stage stage = stage_at(elevation);
         const RayField rays = renderer->rays(stage, *material, width, height, {0, 0});
         const Frame gpu = renderer->draw(stage, *material, technique, params, {.width = width, .height = height});
-        const Frame cpu = cpu_trace(rays, maps, height_scale, zero_level, stage.lighting, technique, params, true, 0);
+        const Frame cpu = cpu_trace(rays, maps, height_scale, zero_level, stage.lighting, technique, params, {}, 0);
         int covered = 0;
         int moved = 0;
         int turned = 0;

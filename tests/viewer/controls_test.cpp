@@ -96,7 +96,7 @@ TEST(controls, everything_that_changes_the_reference_changes_its_numbers) {
     EXPECT_TRUE(changed([](Controls& c) { c.move_light(0, 1); }));
     EXPECT_TRUE(changed([](Controls& c) { c.zoom_by(1); }));
     EXPECT_TRUE(changed([](Controls& c) { c.height_scale *= 2; }));
-    EXPECT_TRUE(changed([](Controls& c) { c.shadow = !c.shadow; }));
+    EXPECT_TRUE(changed([](Controls& c) { c.options.shadow = glsl::shadow_none; }));
     EXPECT_FALSE(changed([](Controls& c) { c.technique = &techniques().front(); }));
     EXPECT_FALSE(changed([](Controls& c) { c.turn(knob::max_steps, 3); }));
 }

@@ -33,7 +33,7 @@ ReferenceWorker::Request request(std::size_t view, int width, int height) {
 Image8 at_once(const ReferenceWorker::Request& r) {
     const RayField rays = quad_rays(r.stage, r.width, r.height, {0, 0});
     return shown_picture(
-        reference_picture(r.stage, cobbles().maps, {&rays, 1}, {.height_scale = r.height_scale, .zero_level = r.zero_level, .shadow = r.shadow}).colour);
+        reference_picture(r.stage, cobbles().maps, {&rays, 1}, {.height_scale = r.height_scale, .zero_level = r.zero_level, .options = r.options}).colour);
 }
 
 TEST(reference_worker, ends_as_the_picture_drawn_at_once) {

@@ -10,6 +10,7 @@ layout(set = 0, binding = 4) uniform sampler2D cone_map;     // bilinear, one le
 layout(set = 0, binding = 5) uniform sampler2D conservative_cone_map;  // bilinear, one level
 layout(set = 0, binding = 6) uniform sampler2D relaxed_cone_map;       // bilinear, one level
 layout(set = 0, binding = 7) uniform sampler2D robust_cone_map;        // nearest, one level
+layout(set = 0, binding = 8) uniform sampler2DArray horizon_map;  // bilinear, a layer for each direction
 
 // Fetches of the search so far. The shade host never reads it, and the compiler drops it there.
 int fetch_count = 0;
@@ -74,6 +75,11 @@ vec2 relaxed_cone(ivec2 texel) {
 vec2 robust_cone(ivec2 texel) {
     ++fetch_count;
     return texelFetch(robust_cone_map, wrapped_texel(texel, textureSize(robust_cone_map, 0)), 0).xy;
+}
+
+float horizon_at(vec2 uv, int direction) {
+    ++fetch_count;
+    return textureLod(horizon_map, vec3(uv, float(direction)), 0.0f).x;
 }
 
 int max_levels() { return textureQueryLevels(pyramid_map); }

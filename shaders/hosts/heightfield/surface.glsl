@@ -1,11 +1,11 @@
 // The surface a technique found under a pixel, and the light it sends to the eye (core/lighting.h).
 #include "../../shading/attenuation.glsl"
+#include "../../shading/key_shadow.glsl"
 #include "../../shading/phong.glsl"
-#include "../../shading/self_shadow.glsl"
 #include "maps.glsl"
 #include "pixel.glsl"
 
-layout(constant_id = 0) const bool casts_shadow = true;    // the technique claims self-shadow and it is asked for
+layout(constant_id = 0) const int shadow_mode = shadow_hard;  // none where rays were asked for and the technique cannot trace them
 layout(constant_id = 1) const bool shaded_normals = true;  // Technique::shaded_normals
 // Known when the pipeline is made, so that the loop over a few lights is unrolled and their fields are plain constants of the draw:
 // shading a textured quad with two lights on the software device took 47 ms of CPU time with a bound read from a buffer.
@@ -28,8 +28,9 @@ vec3 to_light(LightUniforms light, vec3 position) {
 // Share of the key light, the first, that arrives.
 float key_visibility(SurfaceRay ray, SurfaceHit hit) {
     float visible = 1.0f;
-    if (casts_shadow && light_count > 0)
-        visible = self_shadow(ray, hit, to_light(first_lights[0], surface_position(ray, hit)), relief.shadow_bias, march);
+    if (light_count > 0)
+        visible = key_shadow(ray, hit, to_light(first_lights[0], surface_position(ray, hit)), relief.shadow_bias, march, shadow_mode,
+                             numbers);
     return visible;
 }
 

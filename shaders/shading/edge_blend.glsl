@@ -1,0 +1,138 @@
+// Edge anti-aliasing inside the search: a pixel whose ray just passed an edge, or just met one, shows something of both sides.
+// Mile 2008, 3.6.7, has two forms; both look along one ray only, so edges that run up the screen stay as they are.
+#ifndef RELIEVO_SHADING_EDGE_BLEND
+#define RELIEVO_SHADING_EDGE_BLEND
+
+#include "../surface/maps.glsl"
+#include "../surface/ray_entry.glsl"
+
+// The other surface that a pixel shows, and how much of the pixel it has.
+struct EdgeNeighbour {
+    SurfaceHit hit;
+    float share;
+};
+
+// What the ray would meet if it went on from below height z.
+SurfaceHit hit_beyond(SurfaceRay ray, float z, MarchParams params) {
+    SurfaceRay rest = ray;
+    rest.z_start = z;
+    return technique(rest, params);
+}
+
+// First form: one step behind the hit the ray is above the field again, so it met an edge; what comes behind gets half the pixel. A
+// thin ridge is an edge all over.
+EdgeNeighbour edge_behind(SurfaceRay ray, SurfaceHit hit, MarchParams params, int samples) {
+    EdgeNeighbour other;
+    other.hit = hit;
+    other.share = 0.0f;
+    float next = hit.height - (ray.z_start - ray.z_end) / float(samples);
+    if (next > ray.z_end) {
+        if (height_at(uv_at(ray, next)) < next) {
+            other.hit = hit_beyond(ray, next, params);
+            other.share = 0.5f;
+        }
+    }
+    return other;
+}
+
+// Where the ray came nearest above the field before its hit, and the field receded again: (height, gap); a gap of 1 where it never
+// did. Samples stand evenly between start and hit; the best is then looked at closer, by halves.
+vec2 nearest_pass(SurfaceRay ray, float z_hit, int samples) {
+    float dz = (ray.z_start - z_hit) / float(samples + 1);
+    vec2 best = vec2(ray.z_start, 1.0f);
+    float before = ray.z_start - height_at(uv_at(ray, ray.z_start));
+    float z = ray.z_start - dz;
+    float gap = z - height_at(uv_at(ray, z));
+    for (int i = 1; i < samples; ++i) {
+        float z_next = z - dz;
+        float next = z_next - height_at(uv_at(ray, z_next));
+        if (gap >= 0.0f && gap <= before && gap < next && gap < best.y) best = vec2(z, gap);
+        before = gap;
+        gap = next;
+        z = z_next;
+    }
+    if (best.y < 1.0f) {
+        float half_step = 0.5f * dz;
+        for (int i = 0; i < 5; ++i) {
+            float below = best.x - half_step;
+            float above = best.x + half_step;
+            float gap_below = below - height_at(uv_at(ray, below));
+            float gap_above = above - height_at(uv_at(ray, above));
+            if (gap_below >= 0.0f && gap_below < best.y) best = vec2(below, gap_below);
+            if (gap_above >= 0.0f && gap_above < best.y) best = vec2(above, gap_above);
+            half_step *= 0.5f;
+        }
+    }
+    return best;
+}
+
+// The point of the field under a place of the ray.
+SurfaceHit below_ray(SurfaceRay ray, float z) {
+    SurfaceHit hit;
+    hit.uv = uv_at(ray, z);
+    hit.height = height_at(hit.uv);
+    hit.found = true;
+    return hit;
+}
+
+// Second form: an edge passed within `width` (in heights) gets the more of the pixel the nearer the ray came.
+EdgeNeighbour edge_passed(SurfaceRay ray, SurfaceHit hit, float width, int samples) {
+    EdgeNeighbour other;
+    other.hit = hit;
+    other.share = 0.0f;
+    vec2 pass = nearest_pass(ray, hit.height, samples);
+    if (pass.y < width) {
+        other.hit = below_ray(ray, pass.x);
+        other.share = 1.0f - pass.y / width;
+    }
+    return other;
+}
+
+// Ours: both sides of the edge, by the pixel's own size. A ray moved by a pixel's footprint in UV changes its gap to the field by
+// footprint / |uv_per_height| heights, so a gap measured in that unit is the edge's distance from the pixel's middle, and an edge nearer
+// than half a pixel has the rest of that half. The same behind the hit, where the deepest the ray dips before it comes out again counts.
+EdgeNeighbour edge_covered(SurfaceRay ray, SurfaceHit hit, MarchParams params, int samples) {
+    EdgeNeighbour other;
+    other.hit = hit;
+    other.share = 0.0f;
+    float pixel = exp2(ray.lod) / max(length(ray.uv_per_height), 1e-6f);  // in heights
+    vec2 pass = nearest_pass(ray, hit.height, samples);
+    if (pass.y < 0.5f * pixel) {
+        other.hit = below_ray(ray, pass.x);
+        other.share = 0.5f - pass.y / pixel;
+    } else {
+        float dz = 0.5f * pixel / float(8);
+        dz = max(dz, (hit.height - ray.z_end) / float(samples));
+        float z = hit.height - dz;
+        float deepest = 0.0f;
+        bool out_again = false;
+        for (int i = 0; i < samples && !out_again; ++i) {
+            float dip = height_at(uv_at(ray, z)) - z;
+            deepest = max(deepest, dip);
+            if (dip < 0.0f) out_again = true;
+            if (deepest > 0.5f * pixel || z <= ray.z_end) break;
+            if (!out_again) z -= dz;
+        }
+        if (out_again && deepest < 0.5f * pixel && z > ray.z_end) {
+            other.hit = hit_beyond(ray, z, params);
+            other.share = 0.5f - deepest / pixel;
+        }
+    }
+    return other;
+}
+
+EdgeNeighbour edge_neighbour(SurfaceRay ray, SurfaceHit hit, MarchParams params, int mode, float width, int samples) {
+    EdgeNeighbour other;
+    other.hit = hit;
+    other.share = 0.0f;
+    if (mode == edge_behind_mode) {
+        other = edge_behind(ray, hit, params, samples);
+    } else if (mode == edge_passed_mode) {
+        other = edge_passed(ray, hit, width, samples);
+    } else if (mode == edge_covered_mode) {
+        other = edge_covered(ray, hit, params, samples);
+    }
+    return other;
+}
+
+#endif
