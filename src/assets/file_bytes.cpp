@@ -89,6 +89,29 @@ std::pair<Buffer, std::size_t> inflate_all(std::string_view packed, const std::s
 
 bool is_gzip(std::string_view bytes) { return bytes.size() >= 18 && bytes.substr(0, 3) == "\x1f\x8b\x08"; }
 
+std::string gzip(std::string_view bytes) {
+    z_stream stream{};
+    // Level 6 is zlib's compromise; 16: gzip header and checksum; 8: its usual memory.
+    if (deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) != Z_OK) throw std::bad_alloc();
+    std::string packed(deflateBound(&stream, static_cast<uLong>(bytes.size())), '\0');
+    std::size_t read = 0, size = 0;
+    for (int result = Z_OK; result != Z_STREAM_END;) {
+        // zlib counts in 32 bits.
+        const auto in = static_cast<uInt>(std::min<std::size_t>(bytes.size() - read, 1u << 30));
+        const auto out = static_cast<uInt>(std::min<std::size_t>(packed.size() - size, 1u << 30));
+        stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data() + read));
+        stream.avail_in = in;
+        stream.next_out = reinterpret_cast<Bytef*>(packed.data() + size);
+        stream.avail_out = out;
+        result = ::deflate(&stream, read + in == bytes.size() ? Z_FINISH : Z_NO_FLUSH);
+        read += in - stream.avail_in;
+        size += out - stream.avail_out;
+    }
+    deflateEnd(&stream);
+    packed.resize(size);
+    return packed;
+}
+
 FileBytes FileBytes::open(const std::filesystem::path& file, std::uint64_t max_bytes) {
     const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe would keep us waiting
     if (descriptor < 0) throw Error("read", file.string(), std::strerror(errno));
@@ -110,7 +133,11 @@ FileBytes FileBytes::open(const std::filesystem::path& file, std::uint64_t max_b
     bytes.mapped_ = true;
     if (!is_gzip(bytes.view())) return bytes;
 
-    auto [buffer, size] = inflate_all(bytes.view(), file.string(), max_bytes);
+    return inflate(bytes.view(), file.string(), max_bytes);
+}
+
+FileBytes FileBytes::inflate(std::string_view packed, const std::string& file, std::uint64_t max_bytes) {
+    auto [buffer, size] = inflate_all(packed, file, max_bytes);
     FileBytes plain;
     plain.data_ = buffer.release();
     plain.size_ = size;

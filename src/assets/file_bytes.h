@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace relievo {
@@ -16,6 +17,9 @@ public:
     // Throws Error for what is no plain file, cannot be opened, is empty, or is gzip but damaged, cut short or larger than
     // `max_bytes`. A mapped file must not be truncated by others while it is in use.
     static FileBytes open(const std::filesystem::path& file, std::uint64_t max_bytes = max_inflated_bytes);
+
+    // The same for compressed bytes in memory.
+    static FileBytes inflate(std::string_view packed, const std::string& file, std::uint64_t max_bytes = max_inflated_bytes);
 
     FileBytes(FileBytes&& other) noexcept;
     FileBytes& operator=(FileBytes&&) = delete;
@@ -33,5 +37,8 @@ private:
 };
 
 bool is_gzip(std::string_view bytes);
+
+// The bytes as a gzip file of one member.
+std::string gzip(std::string_view bytes);
 
 }  // namespace relievo

@@ -134,7 +134,7 @@ private:
         int n = 0;
         for (skip_blanks(); !at_end(); skip_blanks()) {
             float value = 0;
-            if (!text::read_float(p_, value) || !(is_blank(*p_) || *p_ == '\n' || *p_ == '#' || *p_ == '\\')) return -1;
+            if (!text::read_float(p_, end_, value) || !(is_blank(*p_) || *p_ == '\n' || *p_ == '#' || *p_ == '\\')) return -1;
             if (n < most) values[n] = value;
             ++n;
         }
@@ -144,8 +144,19 @@ private:
 
     bool vertex() {
         float value[8];
-        // Three numbers and the end of the line, which is nearly every line, without the generality of numbers().
         const char* const start = p_;
+        // Three numbers one blank apart and the end of the line are nearly every line; others go the general way.
+        for (int k = 0; k < 3; ++k) {
+            while (*p_ == ' ') ++p_;
+            if (!text::read_float(p_, end_, value[k])) break;
+            if (k < 2) continue;
+            while (is_blank(*p_)) ++p_;
+            if (*p_ != '\n') break;
+            ++p_;
+            piece_.positions.emplace_back(value[0], value[1], value[2]);
+            return true;
+        }
+        p_ = start;
         const int n = numbers(value, 8);
         if (n < 3) {
             p_ = n < 0 ? p_ : start;
@@ -190,7 +201,29 @@ private:
         list.push_back(index);
     }
 
+    // "f 1 2 3", which scans consist of: three numbers from 1 on and nothing else. False, with nothing read, for any other face.
+    bool plain_triangle() {
+        const char* q = p_;
+        std::array<std::uint32_t, 3> index;
+        for (std::uint32_t& i : index) {
+            while (*q == ' ') ++q;
+            const char* const start = q;
+            i = 0;
+            for (unsigned digit; (digit = static_cast<unsigned char>(*q - '0')) < 10; ++q) i = i * 10 + digit;
+            if (q == start || q - start > 9 || i == 0) return false;
+            --i;
+        }
+        while (is_blank(*q)) ++q;
+        if (*q != '\n') return false;
+        p_ = q + 1;
+        piece_.corners[position].insert(piece_.corners[position].end(), index.begin(), index.end());
+        if (!piece_.sizes.empty()) piece_.sizes.push_back(3);
+        ++piece_.faces;
+        return true;
+    }
+
     bool face() {
+        if (plain_triangle()) return true;
         std::vector<std::uint32_t>& corners = piece_.corners[position];
         const std::size_t first = corners.size();
         for (skip_blanks(); !at_end(); skip_blanks()) {

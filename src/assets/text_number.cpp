@@ -59,7 +59,8 @@ bool read_unusual_float(const char*& p, float& value) {
         }
     }
     if (count == 0) return false;
-    if (*q == '#') {  // how Microsoft's runtime printed what is no number: 1.#INF, -1.#IND, 1.#QNAN
+    if (number == "1." && *q == '#' && (q[1] == 'I' || q[1] == 'Q' || q[1] == 'S')) {  // how Microsoft's runtime printed what is no
+        // number: 1.#INF, -1.#IND, 1.#QNAN
         while (*q == '#' || is_digit(*q) || ((*q | 32) >= 'a' && (*q | 32) <= 'z')) ++q;
         value = std::numeric_limits<float>::quiet_NaN();
         p = q;
