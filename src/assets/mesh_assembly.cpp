@@ -189,7 +189,8 @@ void finish_mesh(Mesh& mesh, MeshFaults faults, const std::string& file, int thr
 
     if (mesh.indices.empty()) {
         std::string why = "it holds " + counted(mesh.positions.size(), "vertex", "vertices") + " and no face";
-        for (const std::string& note : mesh.notes) why += "; " + note;
+        if (!mesh.notes.empty()) why += '.';
+        for (const std::string& note : mesh.notes) why += ' ' + note;
         throw Error("read", file, why);
     }
 }
