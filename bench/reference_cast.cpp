@@ -2,11 +2,11 @@
 // same answer: Embree splits each cell into two triangles, in float; the reference solves the bilinear patch, in double. The
 // baseline of `ratio` is Embree's packet of 16 on one thread.
 #include "core/parallel_for.h"
+#include "embree_surface.h"
 #include "reference/cast.h"
 #include "textures/procedural.h"
 
 #include <benchmark/benchmark.h>
-#include <embree3/rtcore.h>
 
 #include <chrono>
 #include <ctime>
@@ -44,81 +44,14 @@ std::vector<ReferenceRay> rays_at(double elevation_deg) {
     return rays;
 }
 
-// Two by two periods as one grid, x and y in UV, z in UV.
-class EmbreeGrid {
-public:
-    explicit EmbreeGrid(const HeightField& field) : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
-        const int side = 2 * field_size + 1;
-        RTCGeometry grid = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_GRID);
-        auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(grid, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                                     static_cast<std::size_t>(side) * static_cast<std::size_t>(side)));
-        for (int j = 0; j < side; ++j) {
-            for (int i = 0; i < side; ++i) {
-                *vertices++ = static_cast<float>((i + 0.5) / field_size);
-                *vertices++ = static_cast<float>((j + 0.5) / field_size);
-                *vertices++ = static_cast<float>(field.wrapped(i, j) * height_scale);
-            }
-        }
-        auto* description = static_cast<RTCGrid*>(rtcSetNewGeometryBuffer(grid, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, sizeof(RTCGrid), 1));
-        *description = {0, static_cast<unsigned>(side), static_cast<unsigned short>(side), static_cast<unsigned short>(side)};
-        rtcCommitGeometry(grid);
-        rtcAttachGeometry(scene_, grid);
-        rtcReleaseGeometry(grid);
-        rtcCommitScene(scene_);
+std::vector<EmbreeRay> as_embree(const std::vector<ReferenceRay>& rays) {
+    std::vector<EmbreeRay> same;
+    for (const ReferenceRay& r : rays) {
+        const Vec2f from(r.uv), to(r.uv - r.uv_per_height);
+        same.push_back({{from.x, from.y, static_cast<float>(height_scale)}, {to.x, to.y, 0}});
     }
-    ~EmbreeGrid() {
-        rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
-    }
-    EmbreeGrid(const EmbreeGrid&) = delete;
-    EmbreeGrid& operator=(const EmbreeGrid&) = delete;
-
-    float single(const std::vector<ReferenceRay>& rays) const {
-        float sum = 0;
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        for (const ReferenceRay& r : rays) {
-            RTCRayHit hit{};
-            hit.ray.org_x = static_cast<float>(r.uv.x), hit.ray.org_y = static_cast<float>(r.uv.y), hit.ray.org_z = height_scale;
-            hit.ray.dir_x = static_cast<float>(-r.uv_per_height.x), hit.ray.dir_y = static_cast<float>(-r.uv_per_height.y);
-            hit.ray.dir_z = -height_scale;
-            hit.ray.tfar = 1.01f;
-            hit.ray.mask = ~0u;
-            hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-            rtcIntersect1(scene_, &context, &hit);
-            sum += hit.ray.tfar;
-        }
-        return sum;
-    }
-
-    float packet16(const std::vector<ReferenceRay>& rays) const {
-        float sum = 0;
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;  // else a packet is taken apart into single rays
-        alignas(64) int valid[16];
-        std::fill(valid, valid + 16, -1);
-        for (std::size_t first = 0; first < rays.size(); first += 16) {
-            alignas(64) RTCRayHit16 hit{};
-            for (std::size_t k = 0; k < 16; ++k) {
-                const ReferenceRay& r = rays[first + k];
-                hit.ray.org_x[k] = static_cast<float>(r.uv.x), hit.ray.org_y[k] = static_cast<float>(r.uv.y), hit.ray.org_z[k] = height_scale;
-                hit.ray.dir_x[k] = static_cast<float>(-r.uv_per_height.x), hit.ray.dir_y[k] = static_cast<float>(-r.uv_per_height.y);
-                hit.ray.dir_z[k] = -height_scale;
-                hit.ray.tfar[k] = 1.01f;
-                hit.ray.mask[k] = ~0u;
-                hit.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-            }
-            rtcIntersect16(valid, scene_, &context, &hit);
-            for (const float t : hit.ray.tfar) sum += t;
-        }
-        return sum;
-    }
-
-private:
-    RTCDevice device_;
-    RTCScene scene_;
-};
+    return same;
+}
 
 double ours(const HeightField& field, const std::vector<ReferenceRay>& rays, int threads) {
     std::vector<double> sums(rays.size() / 1024);
@@ -154,17 +87,27 @@ void run(benchmark::State& state, const std::string& question, bool is_baseline,
 const bool registered = [] {
     for (const std::string id : {"dunes", "cobbles", "spikes"}) {
         const auto field = std::make_shared<HeightField>(field_of(id));
-        const auto grid = std::make_shared<EmbreeGrid>(*field);
+        const auto grid = std::make_shared<EmbreeSurface>(*field, height_scale, EmbreeGeometry::grid, 0, 2 * field_size);
         for (const int degrees : {60, 30, 15}) {
             const auto rays = std::make_shared<std::vector<ReferenceRay>>(rays_at(degrees));
+            const auto same = std::make_shared<std::vector<EmbreeRay>>(as_embree(*rays));
+            const auto packets = std::make_shared<EmbreePackets>(embree_packets(*same));
+            const auto hits = std::make_shared<std::vector<EmbreeHit>>(rays->size());
             const std::string question = id + "/" + std::to_string(degrees);
             const auto add = [&](const char* who, bool is_baseline, Clock clock, std::function<double()> cast) {
-                benchmark::RegisterBenchmark((question + "/" + who).c_str(), [=](benchmark::State& state) { run(state, question, is_baseline, clock, cast); })
+                benchmark::RegisterBenchmark((question + "/" + who).c_str(),
+                                             [=](benchmark::State& state) { run(state, question, is_baseline, clock, cast); })
                     ->UseRealTime()
                     ->Unit(benchmark::kMillisecond);
             };
-            add("embree_packet16", true, Clock::cpu, [=] { return grid->packet16(*rays); });
-            add("embree_single", false, Clock::cpu, [=] { return grid->single(*rays); });
+            add("embree_packet16", true, Clock::cpu, [=] {
+                grid->packet16(*packets, 0, packets->packets.size(), hits->data());
+                return static_cast<double>(hits->back().distance);
+            });
+            add("embree_single", false, Clock::cpu, [=] {
+                grid->single(*same, hits->data());
+                return static_cast<double>(hits->back().distance);
+            });
             add("reference_1_thread", false, Clock::cpu, [=] { return ours(*field, *rays, 1); });
             add("reference_all_threads", false, Clock::wall, [=] { return ours(*field, *rays, 0); });
         }

@@ -3,6 +3,9 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(RELIEVO_LIBRARY_STAGES core techniques maps textures reference measure scenes)
+if(TARGET relievo_cast)
+  list(APPEND RELIEVO_LIBRARY_STAGES cast)
+endif()
 set(include_root ${CMAKE_INSTALL_INCLUDEDIR}/relievo)
 set(shader_root ${CMAKE_INSTALL_DATADIR}/relievo/shaders)
 

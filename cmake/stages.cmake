@@ -28,6 +28,24 @@ set_target_properties(relievo_imgui PROPERTIES
   INTERFACE_INCLUDE_DIRECTORIES ${IMGUI_INCLUDE_DIR}
   INTERFACE_LINK_LIBRARIES "${STB_LIBRARY};glfw;Vulkan::Vulkan")
 
+# Highway 1.0 or later, for the CPU caster, which is left out where there is none (Ubuntu 22.04 has 0.16). Its CMake package on
+# Debian names a folder of headers that does not exist.
+find_library(HIGHWAY_LIBRARY hwy)
+find_path(HIGHWAY_INCLUDE_DIR hwy/highway.h)
+set(RELIEVO_HIGHWAY "")
+if(HIGHWAY_LIBRARY AND HIGHWAY_INCLUDE_DIR)
+  file(STRINGS ${HIGHWAY_INCLUDE_DIR}/hwy/base.h highway_version REGEX "define HWY_MAJOR [1-9]")
+  if(NOT highway_version)
+    file(STRINGS ${HIGHWAY_INCLUDE_DIR}/hwy/highway.h highway_version REGEX "define HWY_MAJOR [1-9]")
+  endif()
+  if(highway_version)
+    set(RELIEVO_HIGHWAY ${HIGHWAY_LIBRARY})
+  endif()
+endif()
+if(NOT RELIEVO_HIGHWAY)
+  message(STATUS "the CPU caster (src/cast) is left out: it needs Highway 1.0 or later (libhwy-dev)")
+endif()
+
 add_library(relievo_options INTERFACE)
 target_compile_options(relievo_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow
   -Wno-missing-field-initializers  # designated initializers leave defaults out on purpose
