@@ -8,6 +8,7 @@ namespace relievo::glsl {
 
 thread_local BoundMaps bound_maps;
 thread_local int fetch_count = 0;
+thread_local std::vector<Fetch>* fetch_log = nullptr;
 
 namespace {
 
@@ -22,7 +23,18 @@ const MapSet& declared(Map map, const char* name) {
 const MapSet& fetched(Map map, const char* name) {
     const MapSet& maps = declared(map, name);
     ++fetch_count;
+    if (fetch_log != nullptr) fetch_log->push_back({.map = map});
     return maps;
+}
+
+// Completes the note of the fetch just made: where it was, what was read.
+void note_point(vec2 uv, vec4 value) {
+    if (fetch_log == nullptr) return;
+    fetch_log->back() = {.map = fetch_log->back().map, .place = Fetch::Place::point, .uv = uv, .value = value};
+}
+void note_node(Fetch::Place place, ivec2 index, int level, vec4 value) {
+    if (fetch_log == nullptr) return;
+    fetch_log->back() = {.map = fetch_log->back().map, .place = place, .index = index, .level = level, .value = value};
 }
 
 // The sampler's rule: bilinear between texel centres, repeat.
@@ -47,11 +59,14 @@ void sample_bilinear(const ImageF& image, vec2 uv, float* out) {
 vec2 sampled_pair(const ImageF& image, vec2 uv) {
     float out[2];
     sample_bilinear(image, uv, out);
+    note_point(uv, {out[0], out[1], 0, 0});
     return {out[0], out[1]};
 }
 
 vec2 texel_pair(const ImageF& image, ivec2 texel) {
     const float* pair = image.at(wrap_index(texel.x, image.width), wrap_index(texel.y, image.height));
+    const vec2 size(static_cast<float>(image.width), static_cast<float>(image.height));
+    note_point((vec2(texel) + vec2(0.5f)) / size, {pair[0], pair[1], 0, 0});
     return {pair[0], pair[1]};
 }
 
@@ -62,11 +77,13 @@ ivec2 height_size() { return {bound_maps.maps->height.width(), bound_maps.maps->
 float height_at(vec2 uv) {
     float h = 0;
     sample_bilinear(fetched(Map::height, "height").height.texels, uv, &h);
+    note_point(uv, {h, 0, 0, 0});
     return h;
 }
 
 vec4 height_cell(ivec2 cell) {
     const auto c = fetched(Map::height, "height").height.cell(cell.x, cell.y);
+    note_node(Fetch::Place::cell, cell, 0, {c[0], c[1], c[2], c[3]});
     return {c[0], c[1], c[2], c[3]};
 }
 
@@ -80,7 +97,9 @@ vec3 normal_at(vec2 uv, float lod) {
     float b[3];
     sample_bilinear(chain[fine], uv, a);
     sample_bilinear(chain[coarse], uv, b);
-    return normalize(mix(vec3(a[0], a[1], a[2]), vec3(b[0], b[1], b[2]), level - static_cast<float>(fine)));
+    const vec3 normal = normalize(mix(vec3(a[0], a[1], a[2]), vec3(b[0], b[1], b[2]), level - static_cast<float>(fine)));
+    note_point(uv, {normal, 0});
+    return normal;
 }
 
 vec2 cone_at(vec2 uv) { return sampled_pair(fetched(Map::cone, "cone").cone, uv); }
@@ -111,7 +130,9 @@ float horizon_at(vec2 uv, int direction) {
 int max_levels() { return static_cast<int>(declared(Map::max_pyramid, "max_pyramid").max_pyramid.levels.size()); }
 
 float max_at(ivec2 node, int level) {
-    return fetched(Map::max_pyramid, "max_pyramid").max_pyramid.levels[static_cast<std::size_t>(level)](node.x, node.y);
+    const float top = fetched(Map::max_pyramid, "max_pyramid").max_pyramid.levels[static_cast<std::size_t>(level)](node.x, node.y);
+    note_node(Fetch::Place::node, node, level, {top, 0, 0, 0});
+    return top;
 }
 
 }  // namespace relievo::glsl

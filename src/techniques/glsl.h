@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace relievo::glsl {
 
@@ -54,8 +55,21 @@ struct BoundMaps {
     MapFlags readable;
 };
 
+// One fetch as it was made, for those who want to see a search at work (src/explain). Every accessor says where it read and what.
+struct Fetch {
+    enum class Place { unnamed, point, cell, node, volume };
+    Map map{};
+    Place place = Place::unnamed;
+    vec2 uv{};         // point and volume: the texture coordinate, not wrapped
+    float height = 0;  // volume: the height
+    ivec2 index{};     // cell: not wrapped; node: inside one period
+    int level = 0;     // node: 2^level cells along an edge
+    vec4 value{};      // what was read, in the order of the accessor's result
+};
+
 extern thread_local BoundMaps bound_maps;
 extern thread_local int fetch_count;
+extern thread_local std::vector<Fetch>* fetch_log;  // where the calling thread's fetches are noted; null: nowhere
 
 ivec2 height_size();
 float height_at(vec2 uv);
