@@ -21,6 +21,7 @@ constexpr const char* examples =
     "  relievo compare --out report                      every technique on the procedural materials\n"
     "  relievo compare --material ~/textures/wall --view grazing --out report\n"
     "  relievo render --material ~/textures/wall --technique relief_mapping --set max_steps=64 --out wall.png\n"
+    "  relievo explain --material cobbles --technique relief_mapping,cone_step_mapping --view grazing --out ray.svg\n"
     "  relievo bake --material ~/textures/wall --map cone --out wall_cone.exr\n"
     "  relievo view --material ~/textures/wall\n"
     "  relievo list techniques";
@@ -65,6 +66,7 @@ int run(int argc, char** argv) {
     relievo::add_compare_command(app, {joined(argc, argv)});
     relievo::add_render_command(app);
     relievo::add_view_command(app);
+    relievo::add_explain_command(app);
     relievo::add_bake_command(app);
     relievo::add_report_command(app);
     relievo::add_list_command(app);
