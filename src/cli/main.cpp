@@ -67,6 +67,7 @@ int run(int argc, char** argv) {
     relievo::add_render_command(app);
     relievo::add_view_command(app);
     relievo::add_explain_command(app);
+    relievo::add_effects_command(app);
     relievo::add_bake_command(app);
     relievo::add_report_command(app);
     relievo::add_list_command(app);

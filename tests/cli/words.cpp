@@ -99,7 +99,7 @@ TEST(Words, HelpOfEveryVerbHasAnExampleAndEveryOptionAText) {
     EXPECT_EQ(help.code, 0);
     EXPECT_EQ(help.err, "");
     EXPECT_NE(help.out.find("Example"), std::string::npos);
-    for (const char* verb : {"compare", "render", "view", "explain", "bake", "report", "list", "docs"}) {
+    for (const char* verb : {"compare", "render", "view", "explain", "effects", "bake", "report", "list", "docs"}) {
         SCOPED_TRACE(verb);
         EXPECT_NE(help.out.find(verb), std::string::npos);
         const Ended of_verb = run({verb, "--help"});
