@@ -18,7 +18,7 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line) {
         std::vector<std::string> materials, techniques, views;
         std::string size = "448x252";
         int texels = 512;
-        bool no_cache = false, no_sweep = false, quiet = false, json = false;
+        bool no_cache = false, sweep = false, no_sweep = false, quiet = false, json = false;
     };
     auto o = std::make_shared<Options>();
     o->settings.command = command_line.text;
@@ -35,7 +35,8 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line) {
     verb->add_option("--texels", o->texels, "edge of the procedural materials' maps")->check(CLI::Range(1, 8192))->capture_default_str();
     verb->add_option("--device", o->settings.device, "software, or part of a device's name (relievo list devices)");
     verb->add_option("--threads", o->settings.threads, "threads of the CPU work (0: all cores)")->check(CLI::NonNegativeNumber);
-    verb->add_flag("--no-sweep", o->no_sweep, "only the default knobs: no curves, no equal-error table");
+    auto* sweep = verb->add_flag("--sweep", o->sweep, "each technique at an eighth to eight times its budget, in every view (default: half and twice, in the first view)");
+    verb->add_flag("--no-sweep", o->no_sweep, "only the default knobs: no curves, no equal-error table")->excludes(sweep);
     verb->add_flag("--no-cache", o->no_cache, "bake every map anew");
     verb->add_flag("--validation", o->settings.validation, "run with the Vulkan validation layers; their messages are an error");
     verb->add_flag("--quiet", o->quiet, "no progress");
@@ -43,7 +44,8 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line) {
     verb->add_option("--out", o->settings.out, "folder for index.html, results.json, results.csv and the pictures")->required();
     verb->footer("Examples:\n  relievo compare --out report\n"
                  "  relievo compare --material wall --material floor --technique relief_mapping,cone_step_mapping --view 20 --out report\n"
-                 "  relievo compare --material cobbles --size 1280x720 --runs 31 --out report");
+                 "  relievo compare --material cobbles --size 1280x720 --runs 31 --out report\n"
+                 "  relievo compare --material cobbles --sweep --out report");
     verb->callback([o] {
         CompareSettings& s = o->settings;
         const Size size = parse_size(o->size);
@@ -52,7 +54,7 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line) {
         s.techniques = parse_techniques(o->techniques);
         s.views = parse_views(o->views);
         s.use_cache = !o->no_cache;
-        s.sweep = !o->no_sweep;
+        s.sweep = o->sweep ? Sweep::full : o->no_sweep ? Sweep::none : Sweep::small;
         if (o->materials.empty())
             for (const Scene& scene : scenes()) o->materials.emplace_back(scene.id);
         for (const std::string& folder : o->materials)

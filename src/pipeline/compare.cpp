@@ -23,6 +23,7 @@
 #include <filesystem>
 #include <functional>
 #include <set>
+#include <span>
 #include <unistd.h>
 
 namespace relievo {
@@ -35,7 +36,6 @@ namespace fs = std::filesystem;
 struct Contestant {
     const Technique* technique;
     MarchParams params;
-    bool has_pictures;  // the defaults are shown; the sweep only adds points to the plots
 };
 
 std::string utc_now() {
@@ -61,18 +61,33 @@ KnobValues knob_values(const Technique& technique, const MarchParams& params) {
     return values;
 }
 
-// The technique's first knob is its budget: half and twice its default. An exact technique has none (its
-// steps are a limit that it does not reach), and one without knobs is a single point.
-std::vector<Contestant> sweep_of(const Technique& technique) {
-    std::vector<Contestant> result;
-    if (technique.exact || technique.knobs.count == 0) return result;
-    const KnobDefault& budget = *technique.knobs.begin();
-    for (const float factor : {0.5f, 2.0f}) {
-        MarchParams params = default_params(technique);
-        budget.knob->set(params, budget.value * factor);
-        if (budget.knob->get(params) != budget.value) result.push_back({&technique, params, false});
+// The settings of a sweep, the cheapest first. A technique's first knob is its budget. An exact technique has none (its steps are a
+// limit that it does not reach), and one without knobs is a single point. No setting comes twice where a knob's range ends or whole
+// numbers round.
+std::vector<Contestant> sweep_of(const std::vector<const Technique*>& list, Sweep sweep) {
+    std::vector<float> factors;
+    if (sweep == Sweep::small) factors = {0.5f, 2.0f};
+    if (sweep == Sweep::full) factors = {0.125f, 0.25f, 0.5f, 2.0f, 4.0f, 8.0f};
+    std::vector<Contestant> settings;
+    std::set<std::pair<const Technique*, float>> taken;
+    for (const float factor : factors) {
+        for (const Technique* technique : list) {
+            if (technique->exact || technique->knobs.count == 0) continue;
+            const KnobDefault& budget = *technique->knobs.begin();
+            MarchParams params = default_params(*technique);
+            taken.insert({technique, budget.knob->get(params)});
+            budget.knob->set(params, budget.value * factor);
+            if (taken.insert({technique, budget.knob->get(params)}).second) settings.push_back({technique, params});
+        }
     }
-    return result;
+    return settings;
+}
+
+// Frames that are held at once: what is timed together is interleaved, and so compares fairly on a busy machine; but a sweep of large
+// pictures must not fill the memory. Half a gibibyte holds all settings of twenty techniques at the default size.
+std::size_t most_frames(int width, int height) {
+    constexpr std::size_t bytes_per_pixel = 48;  // the planes of a Frame
+    return (std::size_t{1} << 29) / (bytes_per_pixel * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) + 1;
 }
 
 TimeSpread spread(std::vector<double> ms) {
@@ -213,7 +228,9 @@ public:
 
         const auto count = [](std::size_t n, const char* word) { return std::to_string(n) + " " + word + (n == 1 ? "" : "s"); };
         Line line(progress_, "comparing " + count(techniques_.size(), "technique") + " on " + count(settings_.materials.size(), "material"),
-                  static_cast<double>(settings_.materials.size()) * (baking_units + static_cast<double>(views_.size()) * view_units));
+                  static_cast<double>(settings_.materials.size()) *
+                      (baking_units + static_cast<double>(views_.size()) * view_units +
+                       static_cast<double>(settings_.sweep == Sweep::full ? views_.size() : 1) * sweep_units(sweep_of(techniques_, settings_.sweep).size())));
         for (const MaterialSource& source : settings_.materials) compare_material(source, pictures.staging(), results, line);
 
         results.manifest.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -236,6 +253,9 @@ private:
         for (int copy = 2; !taken.insert(name).second; ++copy) name = wanted + "-" + std::to_string(copy);
         return name;
     }
+
+    // Of so many settings beside the defaults.
+    double sweep_units(std::size_t settings) const { return static_cast<double>(settings) / static_cast<double>(techniques_.size()) * (drawing_units + measuring_units); }
 
     void compare_material(const MaterialSource& source, const fs::path& out, Results& results, Line& line) {
         const Progress baking = line.step(baking_units);
@@ -284,55 +304,77 @@ private:
         const PixelSettings pixels{baked.maps.height.width(), baked.maps.height.height()};
 
         std::vector<Contestant> contestants;
-        for (const Technique* t : techniques_) contestants.push_back({t, default_params(*t), true});
-        // The sweep is made in the first view only: it doubles the work, and one view shows how error falls with cost.
-        if (settings_.sweep && &view == &views_.front())
-            for (const Technique* t : techniques_)
-                for (const Contestant& c : sweep_of(*t)) contestants.push_back(c);
-
-        std::vector<GpuRenderer::Timed> timed;
-        for (const Contestant& c : contestants) timed.push_back({c.technique, c.params, settings_.options});
-        std::vector<Frame> frames = gpu_.draw_timed(stage, material, timed, picture_, settings_.runs, line.step(drawing_units));
-
-        // Pictures are encoded together at the end, on all cores.
-        std::vector<std::function<void()>> writes;
-        writes.push_back([&] { write_frame_png(out / reference_path, truth.colour); });
-        writes.push_back([&] { write_file_atomically(out / reference_pixels, reference_pixel_script(truth)); });
-        const Progress measuring = line.step(measuring_units);
-        for (std::size_t i = 0; i < contestants.size(); ++i) {
-            report(measuring, "measuring", static_cast<double>(i) / static_cast<double>(contestants.size()));
-            const Contestant& c = contestants[i];
-            const Frame* frame = &frames[i];
+        for (const Technique* t : techniques_) contestants.push_back({t, default_params(*t)});
+        // A small sweep is made in the first view only: one view shows how error falls with cost.
+        if (settings_.sweep == Sweep::full || &view == &views_.front())
+            for (const Contestant& c : sweep_of(techniques_, settings_.sweep)) contestants.push_back(c);
+        const auto drawn = [&](std::span<const Contestant> group) {
+            std::vector<GpuRenderer::Timed> timed;
+            for (const Contestant& c : group) timed.push_back({c.technique, c.params, settings_.options});
+            return gpu_.draw_timed(stage, material, timed, picture_, settings_.runs, line.step(drawing_units * static_cast<double>(group.size()) / static_cast<double>(techniques_.size())));
+        };
+        const auto measuring_of = [&](std::size_t count) { return line.step(measuring_units * static_cast<double>(count) / static_cast<double>(techniques_.size())); };
+        const auto judged = [&](const Contestant& c, const Frame& frame) {
             Row row{.technique = std::string(c.technique->id),
                     .material = place.name,
                     .view = view.id,
                     .elevation_deg = view.elevation_deg,
                     .knobs = knob_values(*c.technique, c.params),
-                    .m = measure(*frame, truth, rays.front(),
+                    .m = measure(frame, truth, rays.front(),
                                  {.texels_x = baked.maps.height.width(), .texels_y = baked.maps.height.height(), .threads = settings_.threads})};
-            row.m.gpu_ms = spread(frame->gpu_ms);
-            if (c.has_pictures) {
-                row.image = prefix + row.technique + ".png";
-                row.error_image = prefix + row.technique + "-error.png";
-                row.fetches_image = prefix + row.technique + "-fetches.png";
-                row.reference_image = reference_path;
-                row.pixels = prefix + row.technique + "-pixels.js";
-                row.reference_pixels = reference_pixels;
-                row.where = where_it_is_wrong(*frame, truth, rays.front(), pixels);
-                writes.push_back([frame, file = out / row.image] { write_frame_png(file, frame->colour); });
-                writes.push_back([frame, &truth, &rays, &baked, file = out / row.error_image] {
-                    const Vec2i texels{baked.maps.height.width(), baked.maps.height.height()};
-                    write_png(file, hit_error_picture(hit_error_texels(*frame, truth, rays.front(), texels, 1), 1), FirstRow::top);
-                });
-                writes.push_back([frame, &truth, &rays, pixels, file = out / row.pixels] {
-                    write_file_atomically(file, pixel_script(*frame, truth, rays.front(), pixels));
-                });
-                writes.push_back([frame, file = out / row.fetches_image] { write_png(file, fetches_picture(*frame, 1), FirstRow::top); });
-                results.rows.push_back(std::move(row));
-            } else {
-                row.no_picture = "a point of the budget sweep, measured but not kept as a picture";
-                results.sweep.push_back(std::move(row));
+            row.m.gpu_ms = spread(frame.gpu_ms);
+            return row;
+        };
+        const auto judge_sweep = [&](const Contestant& c, const Frame& frame) {
+            results.sweep.push_back(judged(c, frame));
+            results.sweep.back().no_picture = "a point of the budget sweep, measured but not kept as a picture";
+        };
+        // The defaults, whose pictures are kept, with as many of the others as there is room for.
+        const std::span<const Contestant> all = contestants;
+        const std::size_t most = std::max(techniques_.size(), most_frames(settings_.width, settings_.height));
+        const std::span<const Contestant> first = all.first(std::min(most, all.size()));
+        const std::vector<Frame> frames = drawn(first);
+
+        // Pictures are encoded together at the end, on all cores.
+        std::vector<std::function<void()>> writes;
+        writes.push_back([&] { write_frame_png(out / reference_path, truth.colour); });
+        writes.push_back([&] { write_file_atomically(out / reference_pixels, reference_pixel_script(truth)); });
+        const Progress measuring = measuring_of(first.size());
+        for (std::size_t i = 0; i < first.size(); ++i) {
+            report(measuring, "measuring", static_cast<double>(i) / static_cast<double>(first.size()));
+            if (i >= techniques_.size()) {
+                judge_sweep(first[i], frames[i]);
+                continue;
             }
+            const Frame* frame = &frames[i];
+            Row row = judged(first[i], *frame);
+            row.image = prefix + row.technique + ".png";
+            row.error_image = prefix + row.technique + "-error.png";
+            row.fetches_image = prefix + row.technique + "-fetches.png";
+            row.reference_image = reference_path;
+            row.pixels = prefix + row.technique + "-pixels.js";
+            row.reference_pixels = reference_pixels;
+            row.where = where_it_is_wrong(*frame, truth, rays.front(), pixels);
+            writes.push_back([frame, file = out / row.image] { write_frame_png(file, frame->colour); });
+            writes.push_back([frame, &truth, &rays, &baked, file = out / row.error_image] {
+                const Vec2i texels{baked.maps.height.width(), baked.maps.height.height()};
+                write_png(file, hit_error_picture(hit_error_texels(*frame, truth, rays.front(), texels, 1), 1), FirstRow::top);
+            });
+            writes.push_back([frame, &truth, &rays, pixels, file = out / row.pixels] {
+                write_file_atomically(file, pixel_script(*frame, truth, rays.front(), pixels));
+            });
+            writes.push_back([frame, file = out / row.fetches_image] { write_png(file, fetches_picture(*frame, 1), FirstRow::top); });
+            results.rows.push_back(std::move(row));
+        }
+        for (std::size_t done = first.size(); done < all.size();) {
+            const std::span<const Contestant> group = all.subspan(done, std::min(most, all.size() - done));
+            const std::vector<Frame> swept = drawn(group);
+            const Progress judging = measuring_of(group.size());
+            for (std::size_t i = 0; i < group.size(); ++i) {
+                report(judging, "measuring", static_cast<double>(i) / static_cast<double>(group.size()));
+                judge_sweep(group[i], swept[i]);
+            }
+            done += group.size();
         }
         const auto write = [&](int begin, int end) {
             for (int i = begin; i < end; ++i) writes[static_cast<std::size_t>(i)]();

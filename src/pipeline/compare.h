@@ -12,6 +12,10 @@
 
 namespace relievo {
 
+// How far each technique is turned over its budget knob, beside its defaults: not at all; half and twice, in the first view; or an
+// eighth to eight times in steps of two, in every view.
+enum class Sweep { none, small, full };
+
 struct CompareSettings {
     std::vector<MaterialSource> materials;   // empty: the procedural set, one scene each
     std::vector<const Technique*> techniques;  // empty: all
@@ -24,7 +28,7 @@ struct CompareSettings {
     int runs = 11;                           // timed runs of each technique, interleaved
     int samples = 5;                         // samples per pixel of every picture and of the reference: 1, 5, 9 or 25
     DrawOptions options{};
-    bool sweep = true;                       // also run each technique over its budget knob, for plots and equal-error tables
+    Sweep sweep = Sweep::small;              // more settings, for plots and equal-error tables
     bool use_cache = true;
     bool validation = false;
     int threads = 0;
