@@ -4,6 +4,9 @@
 #include "assets/image_file.h"
 #include "core/error.h"
 #include "core/parallel_for.h"
+#include "effects/effects_table.h"
+#include "explain/search_figure.h"
+#include "figure/svg.h"
 #include "heightfield_functions.h"
 #include "maps/map_kinds.h"
 #include "measure/error_picture.h"
@@ -11,6 +14,7 @@
 #include "pipeline/compare.h"
 #include "pipeline/map_set_bake.h"
 #include "pipeline/reference_picture.h"
+#include "pipeline/telling_rays.h"
 #include "render/cpu_renderer.h"
 #include "render/gpu_renderer.h"
 #include "techniques/catalogue.h"
@@ -123,6 +127,7 @@ Ground make_ground(const Scene& scene, int texels, int width, int height, double
 
 struct SceneErrors {
     double missed, early, p99, fetches;
+    TellingRays rays;
 };
 
 DrawOptions unshadowed() {
@@ -135,12 +140,42 @@ SceneErrors errors_on(const Ground& ground, const Technique& t, int threads) {
     const Stage stage = stage_for(View{.id = "docs", .elevation_deg = measured_elevation_deg});
     const Frame frame = cpu_trace(ground.rays, ground.baked.maps, ground.baked.height_scale, ground.baked.zero_level, stage.lighting, t,
                                   default_params(t), unshadowed(), threads);
-    const HitMetrics m = hit_metrics(frame, ground.truth, ground.rays, {ground.baked.maps.height.width(), ground.baked.maps.height.height()}, threads);
-    return {*m.missed_first_hit, *m.early_hit, m.uv_error_texels->p99, m.fetches->mean};
+    const Vec2i texels{ground.baked.maps.height.width(), ground.baked.maps.height.height()};
+    const HitMetrics m = hit_metrics(frame, ground.truth, ground.rays, texels, threads);
+    return {*m.missed_first_hit, *m.early_hit, m.uv_error_texels->p99, m.fetches->mean, telling_rays(frame, ground.truth, ground.rays, texels)};
 }
 
-std::string chapter(const Technique& t, const std::vector<std::pair<std::string, SceneErrors>>& measured, const Scene& shown) {
+// One ray of that picture, step by step, and the command that draws the same.
+std::string ray_figure(const Ground& ground, const Technique& t, Vec2i pixel) {
+    const float* view = ground.rays.view.at(pixel.x, pixel.y);
+    const float* uv = ground.rays.uv.at(pixel.x, pixel.y);
+    const RayQuestion question{.uv = {uv[0], uv[1]},
+                               .view = normalize(Vec3d{view[0], view[1], view[2]}),
+                               .height_scale = ground.baked.height_scale,
+                               .zero_level = ground.baked.zero_level,
+                               .lod = ground.rays.lod(pixel.x, pixel.y)};
+    const float* hit = ground.truth.hit_uv.at(pixel.x, pixel.y);
+    const Section section = section_of(ground.baked.maps, question, {hit[0], hit[1]}, ground.truth.hit_height(pixel.x, pixel.y));
+    const Search search = search_along(section, t, default_params(t), ground.baked.maps);
+    return svg_text(search_figure(section, {&search, 1}, ground.baked.maps.height,
+                                  {.heading = std::string(ground.scene->title),
+                                   .where = "Pixel " + std::to_string(pixel.x) + "," + std::to_string(pixel.y) + " of " + std::to_string(measured_width) + " x " +
+                                            std::to_string(measured_height) + ", seen " + number(measured_elevation_deg) + " degrees above the plane."}),
+                    Paper::either);
+}
+
+std::string ray_command(const Technique& t, const Scene& scene, Vec2i pixel) {
+    return "relievo explain --material " + std::string(scene.id) + " --texels " + std::to_string(measured_texels) + " --technique " + std::string(t.id) + " --view " +
+           number(measured_elevation_deg) + " --size " + std::to_string(measured_width) + "x" + std::to_string(measured_height) + " --pixel " + std::to_string(pixel.x) + "," +
+           std::to_string(pixel.y) + " --out ray.svg";
+}
+
+std::string chapter(const Technique& t, const std::vector<std::pair<std::string, SceneErrors>>& measured, const Scene& shown, const TellingRays& rays) {
     const std::string_view text = heightfield::text(t.id);
+    const auto ray = [&](const char* which, const char* words, Vec2i pixel) {
+        return "![" + std::string(words) + "](../figures/" + std::string(t.id) + which + ".svg)\n\n<!-- measured -->\n*" + words + ": `" + ray_command(t, shown, pixel) +
+               "`*\n<!-- /measured -->\n";
+    };
     std::ostringstream out;
     out << "# " << t.title << "\n\n*" << t.source.author << ", \"" << t.source.title << "\", " << t.source.year << ".*\n\n"
         << "It " << t.summary << ".\n\n"
@@ -149,7 +184,8 @@ std::string chapter(const Technique& t, const std::vector<std::pair<std::string,
         << " at its default knobs. Middle: the exact reference. Right: where the hit is wrong; orange is late (behind the true surface), blue early, "
            "brighter is farther, on a logarithmic scale from half a texel to 64 texels. Made by `relievo docs`.*\n\n"
         << "## How it works\n\n"
-        << opening_comment(text) << "\n```glsl\n"
+        << opening_comment(text) << "\n"
+        << ray("-ray", "A ray it follows well, step by step", rays.typical) << "\n```glsl\n"
         << code_of(text) << "```\n\nThe whole of [`" << t.id << ".glsl`](../../../shaders/techniques/heightfield/" << t.id
         << ".glsl); `uv_at` and the ray are explained in [Conventions](../../concepts/conventions.md#the-ray).\n\n"
         << "## What it needs and shows\n\n"
@@ -166,7 +202,8 @@ std::string chapter(const Technique& t, const std::vector<std::pair<std::string,
         << "<!-- measured -->\n| scene | missed first hits | early hits | UV error, 99th percentile (texels) | fetches, mean |\n|---|---|---|---|---|\n";
     for (const auto& [scene, e] : measured)
         out << "| " << scene << " | " << percent(e.missed) << " | " << percent(e.early) << " | " << number(e.p99) << " | " << number(e.fetches, 3) << " |\n";
-    out << "<!-- /measured -->\n\n## Where it fails\n\n" << static_cast<char>(std::toupper(t.limits[0])) << t.limits.substr(1) << ".\n";
+    out << "<!-- /measured -->\n\n## Where it fails\n\n" << static_cast<char>(std::toupper(t.limits[0])) << t.limits.substr(1) << ".\n\n"
+        << ray("-hard-ray", "A ray that is hard for it", rays.hard);
     return out.str();
 }
 
@@ -176,6 +213,22 @@ std::string techniques_page() {
     for (const Technique& t : techniques())
         out << "| " << t.source.year << " | [" << t.title << "](techniques/" << t.id << ".md) | " << t.summary << " | " << map_names(t) << " | "
             << effect_names(t.effects) << " | " << t.limits << " |\n";
+    out << "\n[The table of effects](effects.md) says how much of each effect was measured.\n";
+    return out.str();
+}
+
+std::string effects_page(int threads) {
+    std::ostringstream out;
+    out << "# The four effects, measured\n\nEach effect is looked for in a scene in which it can only be there or not. The number is a share: 1 is the whole effect, 0 none of it. "
+           "The contract tests hold every technique to its claim with the same scenes and thresholds ([`src/effects`](../../src/effects/effects.cpp)).\n\n"
+        << "| effect | scene | number | there from | absent up to |\n|---|---|---|---|---|\n";
+    for (const EffectKind& k : effect_kinds())
+        out << "| " << k.title << " | " << k.scene << " | " << k.number << " | " << number(k.present_from) << " | " << number(k.absent_to) << " |\n";
+    std::vector<const Technique*> all;
+    for (const Technique& t : techniques()) all.push_back(&t);
+    out << "\n## Every technique\n\nMade by `relievo effects`, beside the table published by Nobrega de Lima (2011, table 4.1). That table was drawn up from the papers; where it is not "
+           "mentioned, it agrees or has no such row.\n\n<!-- measured -->\n"
+        << effects_text(effects_table(all, threads), true) << "<!-- /measured -->\n";
     return out.str();
 }
 
@@ -315,15 +368,21 @@ void write_docs(const DocsSettings& settings, const Progress& progress) {
         std::vector<std::pair<std::string, SceneErrors>> measured;
         for (const Ground& ground : grounds) measured.emplace_back(ground.scene->id, errors_on(ground, t, settings.threads));
         // The figure shows the technique's weakness: the scene where most is missed, and cobbles where nothing is.
-        const Scene* shown = find_scene("cobbles");
+        std::size_t chosen = 0;
+        for (std::size_t i = 0; i < grounds.size(); ++i)
+            if (grounds[i].scene->id == "cobbles") chosen = i;
         double worst = 1e-3;
         for (std::size_t i = 0; i < grounds.size(); ++i)
             if (measured[i].second.missed > worst) {
                 worst = measured[i].second.missed;
-                shown = grounds[i].scene;
+                chosen = i;
             }
-        write_file_atomically(out / "techniques" / (std::string(t.id) + ".md"), chapter(t, measured, *shown));
+        const Scene* shown = grounds[chosen].scene;
+        const TellingRays& rays = measured[chosen].second.rays;
+        write_file_atomically(out / "techniques" / (std::string(t.id) + ".md"), chapter(t, measured, *shown, rays));
         if (figures) {
+            write_file_atomically(out / "figures" / (std::string(t.id) + "-ray.svg"), ray_figure(grounds[chosen], t, rays.typical));
+            write_file_atomically(out / "figures" / (std::string(t.id) + "-hard-ray.svg"), ray_figure(grounds[chosen], t, rays.hard));
             const auto panels = figures->draw(t, *shown);
             write_png(out / "figures" / (std::string(t.id) + ".png"), beside({panels.picture, panels.reference, panels.error}), FirstRow::top);
         }
@@ -331,6 +390,7 @@ void write_docs(const DocsSettings& settings, const Progress& progress) {
     }
     write_file_atomically(out / "techniques.md", techniques_page());
     write_file_atomically(out / "tables.md", tables_page());
+    write_file_atomically(out / "effects.md", effects_page(settings.threads));
 
     if (figures) {
         // The front page's picture: from flat to exact, on one material, with the errors under each.
