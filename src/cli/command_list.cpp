@@ -4,6 +4,7 @@
 #include "core/suggest.h"
 #include "maps/map_kinds.h"
 #include "render/gpu_renderer.h"
+#include "scenes/published_tests.h"
 #include "scenes/scene.h"
 #include "techniques/catalogue.h"
 #include "techniques/modifiers.h"
@@ -18,6 +19,8 @@ namespace relievo {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+std::string cell(const Json& value);
 
 // What can be listed: a name and its rows as JSON objects, from which the text table is made too.
 struct Listing {
@@ -66,6 +69,20 @@ Json view_rows() {
     return rows;
 }
 
+Json test_rows() {
+    Json rows = Json::array();
+    for (const PublishedTest& t : published_tests()) {
+        Json runs = Json::object();
+        for (const PublishedRun& r : t.runs) {
+            std::string settings;
+            for (const KnobDefault& k : r.knobs) settings += std::string(settings.empty() ? "" : " ") + std::string(k.knob->id) + "=" + cell(k.value);
+            runs[std::string(r.technique)] = settings;
+        }
+        rows.push_back({{"id", t.id}, {"scene", t.scene}, {"view", t.view}, {"colour_texels", t.colour_texels}, {"height_texels", t.height_texels}, {"settings", runs}});
+    }
+    return rows;
+}
+
 Json knob_rows() {
     Json rows = Json::array();
     for (const Knob* k : knobs)
@@ -91,7 +108,8 @@ Json device_rows() {
 
 constexpr Listing listings[] = {
     {"techniques", technique_rows}, {"maps", map_rows},   {"scenes", scene_rows},
-    {"views", view_rows},           {"knobs", knob_rows}, {"modifiers", modifier_rows}, {"devices", device_rows},
+    {"views", view_rows},           {"knobs", knob_rows}, {"modifiers", modifier_rows}, {"tests", test_rows},
+    {"devices", device_rows},
 };
 
 std::string cell(const Json& value) {
@@ -144,10 +162,10 @@ void print_table(const Json& rows) {
 }  // namespace
 
 void add_list_command(CLI::App& app) {
-    auto* verb = app.add_subcommand("list", "Shows what there is: techniques, maps, scenes, views, knobs, modifiers or devices");
+    auto* verb = app.add_subcommand("list", "Shows what there is: techniques, maps, scenes, views, knobs, modifiers, published tests or devices");
     auto what = std::make_shared<std::string>("techniques");
     auto json = std::make_shared<bool>(false);
-    verb->add_option("what", *what, "techniques | maps | scenes | views | knobs | modifiers | devices")->capture_default_str();
+    verb->add_option("what", *what, "techniques | maps | scenes | views | knobs | modifiers | tests | devices")->capture_default_str();
     verb->add_flag("--json", *json, "print JSON instead of a table");
     verb->footer("Examples:\n  relievo list\n  relievo list devices --json");
     verb->callback([what, json] {

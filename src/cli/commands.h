@@ -19,6 +19,7 @@ void add_render_command(CLI::App& app);
 void add_compare_command(CLI::App& app, const CommandLine& command_line);
 void add_explain_command(CLI::App& app);
 void add_effects_command(CLI::App& app);
+void add_replicate_command(CLI::App& app, const CommandLine& command_line);
 void add_bake_command(CLI::App& app);
 void add_report_command(CLI::App& app);
 void add_view_command(CLI::App& app);

@@ -68,6 +68,7 @@ int run(int argc, char** argv) {
     relievo::add_view_command(app);
     relievo::add_explain_command(app);
     relievo::add_effects_command(app);
+    relievo::add_replicate_command(app, {joined(argc, argv)});
     relievo::add_bake_command(app);
     relievo::add_report_command(app);
     relievo::add_list_command(app);

@@ -124,7 +124,9 @@ float horizon_at(vec2 uv, int direction) {
     const int j0 = wrap_index(static_cast<int>(std::floor(y)), map.height);
     const int i1 = i0 + 1 == map.width ? 0 : i0 + 1;
     const int j1 = j0 + 1 == map.height ? 0 : j0 + 1;
-    return mix(mix(map(i0, j0, direction), map(i1, j0, direction), fx), mix(map(i0, j1, direction), map(i1, j1, direction), fx), fy);
+    const float horizon = mix(mix(map(i0, j0, direction), map(i1, j0, direction), fx), mix(map(i0, j1, direction), map(i1, j1, direction), fx), fy);
+    note_point(uv, {horizon, 0, 0, 0});
+    return horizon;
 }
 
 int max_levels() { return static_cast<int>(declared(Map::max_pyramid, "max_pyramid").max_pyramid.levels.size()); }

@@ -99,7 +99,7 @@ TEST(Words, HelpOfEveryVerbHasAnExampleAndEveryOptionAText) {
     EXPECT_EQ(help.code, 0);
     EXPECT_EQ(help.err, "");
     EXPECT_NE(help.out.find("Example"), std::string::npos);
-    for (const char* verb : {"compare", "render", "view", "explain", "effects", "bake", "report", "list", "docs"}) {
+    for (const char* verb : {"compare", "render", "view", "explain", "effects", "replicate", "bake", "report", "list", "docs"}) {
         SCOPED_TRACE(verb);
         EXPECT_NE(help.out.find(verb), std::string::npos);
         const Ended of_verb = run({verb, "--help"});
@@ -116,8 +116,8 @@ TEST(Words, HelpOfEveryVerbHasAnExampleAndEveryOptionAText) {
 
 TEST(Words, ListsAreTablesOrJson) {
     const std::vector<std::pair<std::string, std::string>> lists{{"techniques", "id"}, {"maps", "id"},     {"scenes", "id"},
-                                                                 {"views", "id"},      {"knobs", "id"},    {"devices", "name"},
-                                                                 {"modifiers", "value"}};
+                                                                 {"views", "id"},      {"knobs", "id"},    {"tests", "id"},
+                                                                 {"devices", "name"},  {"modifiers", "value"}};
     for (const auto& [list, key] : lists) {
         SCOPED_TRACE(list);
         const Ended table = run({"list", list});
