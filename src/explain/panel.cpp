@@ -71,6 +71,12 @@ private:
         if (part.size() > 2) drawing_.marks.push_back(Path{.points = std::move(part), .closed = true, .ink = ink, .fill = fill});
     }
 
+    // A dashed line that labels keep away from.
+    void clear_line(Vec2d a, Vec2d b, Ink ink, double width) {
+        for (const auto& part : clipped_line({a, b}, panel_.box)) labels_.keep_clear_line(part.front(), part.back());
+        line({a, b}, ink, width, 0.8, true);
+    }
+
     // The declared surface along the section: no less than a point per pixel and four per texel, of which those are kept that
     // show.
     void ground() {
@@ -118,6 +124,8 @@ private:
                 if (step.skipped) area(box, ink, 0.10);
                 if (step.solved) area(box, ink, 0.20);
                 line(box, ink, step.solved ? 1.6 : 1, 0.9, step.kind == StepKind::node && !step.skipped);
+                if (step.solved)
+                    for (const auto& part : clipped_line({box[1], box[2]}, panel_.box)) labels_.keep_clear_line(part.front(), part.back());
                 break;
             }
             default: break;
@@ -208,7 +216,7 @@ private:
         if (search_.has_found) {
             // What is painted there is the surface at that texture coordinate, wherever the answer's height lies.
             const double seen = field_.sample(section_.uv_at(search_.found.x));
-            if (std::abs(seen - search_.found.z) * panel_.px_per_height() > 8) line({found, panel_.at(search_.found.x, seen)}, Ink::found, 1.4, 0.8, true);
+            if (std::abs(seen - search_.found.z) * panel_.px_per_height() > 8) clear_line(found, panel_.at(search_.found.x, seen), Ink::found, 1.4);
         }
         if (found_seen) {
             const double r = 4.6;

@@ -32,7 +32,10 @@ StepKind kind_at_point(Map map) {
     switch (map) {
         case Map::height: return StepKind::sample;
         case Map::normal: return StepKind::normal;
-        case Map::cone: return StepKind::cone;
+        case Map::cone:
+        case Map::conservative_cone:
+        case Map::relaxed_cone:
+        case Map::robust_cone: return StepKind::cone;
         default: return StepKind::other;
     }
 }

@@ -105,7 +105,7 @@ std::string test_title(const PublishedTest& test) {
 
 std::string test_table(const ReplicatedTest& test, bool markdown) {
     const std::string base(test.runs.front().technique->id);
-    Cells rows{{"technique", "setting", "fps", "time / " + base, "published", "wrong", "UV p99, texels", "fetches"}};
+    Cells rows{{"technique", "setting", "fps", "time / " + base, "published ratio", "wrong", "UV p99, texels", "fetches"}};
     for (const ReplicatedRun& run : test.runs)
         rows.push_back({name_of(*run.technique, markdown), knobs_of(run) + (run.published == nullptr && !knobs_of(run).empty() ? " (default)" : ""), short_number(run.frames_per_second()),
                         fixed(run.time_ratio, 2), run.published_ratio ? fixed(*run.published_ratio, 2) : "-", share(run.wrong), short_number(run.uv_p99_texels), fixed(run.fetches, 1)});
