@@ -191,6 +191,7 @@ std::string chapter(const Technique& t, const std::vector<std::pair<std::string,
         << "## What it needs and shows\n\n"
         << "| | |\n|---|---|\n"
         << "| maps of the search | " << map_names(t) << " |\n"
+        << "| shaded by | " << title_of(t.shaded_by) << " |\n"
         << "| effects | " << effect_names(t.effects) << " |\n"
         << "| fetches, at most | " << t.max_fetches(default_params(t)) << " at the defaults |\n";
     for (const KnobDefault& k : t.knobs)

@@ -15,6 +15,7 @@ thread_local HeightFieldFunction technique = nullptr;
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // shader headers hold functions that only other files call
 #include "shading/key_shadow.glsl"
+#include "shading/shading_normal.glsl"
 #pragma GCC diagnostic pop
 
 }  // namespace
@@ -36,7 +37,9 @@ Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, fl
     const glsl::BoundMaps all{.maps = &maps, .readable = MapFlags().set()};
     const int shadow = lighting.lights.empty() ? glsl::shadow_none : shadow_of(technique, options);
     const float bias = shadow_bias(technique, params);
-    const bool has_normals = technique.shaded_normals && !maps.normal.empty();
+    // A device finds one level texel where there is no normal map.
+    const bool lacks_normals = technique.shaded_by == ShadedBy::normal_map && maps.normal.empty();
+    const int shaded_by = static_cast<int>(lacks_normals ? ShadedBy::polygon : technique.shaded_by);
     parallel_for(rays.height, 8, threads, [&](int begin, int end) {
         glsl::technique = technique.heightfield;
         for (int y = begin; y < end; ++y) {
@@ -66,7 +69,7 @@ Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, fl
                     frame.shadow(x, y) = 1.0f;
 
                 glsl::bound_maps = all;
-                const Vec3f normal = has_normals ? glsl::normal_at(hit.uv, ray.lod) : Vec3f{0, 0, 1};
+                const Vec3f normal = glsl::shading_normal(shaded_by, hit.uv, ray.lod, height_scale);
                 frame.normal(x, y, 0) = normal.x;
                 frame.normal(x, y, 1) = normal.y;
                 frame.normal(x, y, 2) = normal.z;

@@ -25,9 +25,9 @@ std::span<const std::uint32_t> words_of(std::string_view host, std::string_view 
 vk::Pipeline HeightFieldPass::pipeline(const Draw& draw) {
     const std::string_view id = draw.technique ? draw.technique->id : std::string_view{};
     const int shadow = draw.technique ? shadow_of(*draw.technique, draw.options) : glsl::shadow_none;
-    const bool shaded_normals = draw.technique && draw.technique->shaded_normals;
+    const auto shaded_by = static_cast<std::uint32_t>(draw.technique ? draw.technique->shaded_by : ShadedBy::polygon);
     // The specialization constants of surface.glsl; a host that runs no technique has none and ignores them.
-    const std::array<std::uint32_t, 3> constants{static_cast<std::uint32_t>(shadow), shaded_normals, draw.technique ? draw.scene.light_count() : 0};
+    const std::array<std::uint32_t, 3> constants{static_cast<std::uint32_t>(shadow), shaded_by, draw.technique ? draw.scene.light_count() : 0};
     const Key key{draw.host.file, std::string(id), constants, draw.host.targets};
     auto it = pipelines_.find(key);
     if (it == pipelines_.end()) {

@@ -46,6 +46,7 @@ inline vec3 mix(vec3 a, vec3 b, float t) { return a * (1.0f - t) + b * t; }
 #include "shared/draw_options.h"
 #include "shared/heightfield.h"
 #include "shared/march_params.h"
+#include "shared/shaded_by.h"
 #include "shared/shells.h"
 
 // The maps the calling thread reads, and which of them the technique declared: reading another throws std::logic_error, which

@@ -81,6 +81,14 @@ struct Budget {
     float uv_p99_texels = 1e9f;  // 99th percentile of the UV error
 };
 
+// What the light falls on where the search has found its hit.
+enum class ShadedBy : int {
+    polygon = glsl::shaded_by_polygon,
+    normal_map = glsl::shaded_by_normal_map,
+    height_slopes = glsl::shaded_by_height_slopes,
+    emboss = glsl::shaded_by_emboss,
+};
+
 struct Technique {
     std::string_view id;
     Family family;
@@ -92,8 +100,8 @@ struct Technique {
     Solves solves = {};
     Precision (*precision)(const MarchParams&, float view_z) = nullptr;  // view_z: cosine of the view; null: nothing is solved
     Few<const Knob*, 4> converges = {};  // turning one of these up never makes the mean error worse
-    Few<Map, 4> maps;          // maps of the search; shading adds normal and colour where shaded_normals says so
-    bool shaded_normals = true;  // false: shaded with the polygon's own normal
+    Few<Map, 4> maps;          // maps of the search; shading adds colour and what shaded_by asks for
+    ShadedBy shaded_by = ShadedBy::normal_map;
     Few<KnobDefault, 4> knobs;
     int (*max_fetches)(const MarchParams&) = nullptr;  // most fetches the search may make with these knobs
     Budget budget = {};
@@ -108,6 +116,16 @@ inline glsl::BoundMaps declared_maps(const Technique& technique, const MapSet& m
     glsl::BoundMaps bound{.maps = &maps, .readable = {}};
     for (const Map map : technique.maps) bound.readable.set(index_of(map));
     return bound;
+}
+
+constexpr std::string_view title_of(ShadedBy shaded_by) {
+    switch (shaded_by) {
+        case ShadedBy::polygon: return "the polygon's own normal";
+        case ShadedBy::normal_map: return "the normal map";
+        case ShadedBy::height_slopes: return "normals from differences of heights";
+        case ShadedBy::emboss: return "differences of heights along the light";
+    }
+    return {};
 }
 
 // The technique's knobs at their defaults; knobs it does not declare hold values it never reads.

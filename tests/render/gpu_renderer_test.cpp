@@ -237,6 +237,23 @@ TEST_F(OnGpu, shadowFallsAwayFromTheLight) {
     EXPECT_GT(shadowed, 100);
 }
 
+// Emboss has no normal and so no highlight; what has one shines.
+TEST_F(OnGpu, embossDoesNotShine) {
+    Stage dull = stage_at(35);
+    dull.lighting.specular = 0;
+    Stage shiny = dull;
+    shiny.lighting.specular = 5;
+    shiny.lighting.shininess = 2;
+    const PictureSettings settings{.width = width, .height = height};
+    const auto draw = [&](const char* id, const Stage& stage) {
+        const Technique& t = *find_technique(id);
+        return renderer->draw(stage, *material, t, default_params(t), settings).colour.texels;
+    };
+    EXPECT_EQ(draw("emboss_bump", dull), draw("emboss_bump", shiny));
+    EXPECT_NE(draw("bump_mapping", dull), draw("bump_mapping", shiny));
+    EXPECT_NE(draw("emboss_bump", dull), draw("texture_mapping", dull));
+}
+
 class EveryTechnique : public OnGpu, public testing::WithParamInterface<const Technique*> {};
 
 INSTANTIATE_TEST_SUITE_P(catalogue, EveryTechnique, testing::ValuesIn([] {

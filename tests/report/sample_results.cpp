@@ -161,7 +161,7 @@ Frame trace(const RayField& rays, const MapSet& maps, const Relief& relief, cons
                     frame.coverage(x, y) = static_cast<std::uint8_t>(hit.found ? Coverage::hit : Coverage::no_hit);
                     if (hit.found) {
                         frame.hit_uv(x, y, 0) = hit.uv.x, frame.hit_uv(x, y, 1) = hit.uv.y, frame.hit_height(x, y) = hit.height;
-                        const glsl::vec3 n = technique.shaded_normals ? glsl::normal_at(hit.uv, -8) : glsl::vec3(0, 0, 1);
+                        const glsl::vec3 n = technique.shaded_by == ShadedBy::normal_map ? glsl::normal_at(hit.uv, -8) : glsl::vec3(0, 0, 1);
                         const double h = maps.height.sample({hit.uv.x, hit.uv.y});
                         const double lit = 0.12 + 1.1 * std::max(0.0f, n.x * sun.x + n.y * sun.y + n.z * sun.z);
                         const double grain = 0.86 + 0.14 * std::sin(hit.uv.x * 61 + 3 * std::sin(hit.uv.y * 43));

@@ -14,8 +14,8 @@ TEST(NormalMapping, sees_what_texture_mapping_sees) {
         EXPECT_EQ(shaded.uv, plain.uv);
         EXPECT_EQ(shaded.height, plain.height);
     }
-    EXPECT_FALSE(find_technique("texture_mapping")->shaded_normals);
-    EXPECT_TRUE(find_technique("normal_mapping")->shaded_normals);
+    EXPECT_EQ(find_technique("texture_mapping")->shaded_by, ShadedBy::polygon);
+    EXPECT_EQ(find_technique("normal_mapping")->shaded_by, ShadedBy::normal_map);
 }
 
 }  // namespace

@@ -1,18 +1,20 @@
 // The surface a technique found under a pixel, and the light it sends to the eye (core/lighting.h).
 #include "../../shading/attenuation.glsl"
+#include "../../shading/emboss.glsl"
 #include "../../shading/key_shadow.glsl"
 #include "../../shading/phong.glsl"
+#include "../../shading/shading_normal.glsl"
 #include "maps.glsl"
 #include "pixel.glsl"
 
 layout(constant_id = 0) const int shadow_mode = shadow_hard;  // none where rays were asked for and the technique cannot trace them
-layout(constant_id = 1) const bool shaded_normals = true;  // Technique::shaded_normals
+layout(constant_id = 1) const int shaded_by = shaded_by_normal_map;  // Technique::shaded_by
 // Known when the pipeline is made, so that the loop over a few lights is unrolled and their fields are plain constants of the draw:
 // shading a textured quad with two lights on the software device took 47 ms of CPU time with a bound read from a buffer.
 layout(constant_id = 2) const int light_count = 1;
 
 vec3 surface_normal(SurfaceRay ray, SurfaceHit hit) {
-    return shaded_normals ? normal_at(hit.uv, ray.lod) : vec3(0.0f, 0.0f, 1.0f);
+    return shading_normal(shaded_by, hit.uv, ray.lod, ray.height_scale);
 }
 
 // World position of a hit: one world unit is one repeat of the texture, and the base's centre is the origin.
@@ -46,8 +48,10 @@ vec3 surface_colour(SurfaceRay ray, SurfaceHit hit) {
         if (light.directional == 0)
             arrives *= attenuation(light.constant, light.linear, light.quadratic,
                                    length(vec3(light.x, light.y, light.z) - position));
-        result += arrives * vec3(light.r, light.g, light.b) *
-                  phong(albedo, scene.specular, scene.shininess, normal, ray.view, to_light(light, position));
+        vec3 l = to_light(light, position);
+        vec3 reflected = shaded_by == shaded_by_emboss ? albedo * emboss_diffuse(hit.uv, ray.lod, ray.height_scale, l)
+                                                       : phong(albedo, scene.specular, scene.shininess, normal, ray.view, l);
+        result += arrives * vec3(light.r, light.g, light.b) * reflected;
     }
     return result;
 }
