@@ -11,7 +11,7 @@ namespace relievo {
 // The technique's title, or its id where the catalogue does not know it (results of another version).
 std::string technique_title(std::string_view id);
 
-// "30 steps, 6 bisections"; empty without knobs.
+// "30 steps, 6 refinements"; empty without knobs.
 std::string setting_text(const KnobValues& values);
 
 // The text with its first letter small, to stand inside a sentence.

@@ -95,6 +95,18 @@ constexpr Technique table[] = {
         .limits = "flattens toward the horizon; no part ever hides another",
     },
     {
+        SHADER(parallax_averaged),
+        .title = "Averaged parallax mapping",
+        .summary = "repeats the offset-limited shift with the mean of the height it came from and the height it led to",
+        .source = {"Welsh; its refinement by averaging", 2004, "Parallax Mapping with Offset Limiting: A Per-Pixel Approximation of Uneven Surfaces"},
+        .effects = {.motion_parallax = true},
+        .maps = {Map::height},
+        .knobs = {{knob::iterations, 3}},
+        .max_fetches = [](const MarchParams& p) { return p.iterations + 1; },
+        .budget = {.missed = 0.0015f, .uv_p99_texels = 9.0f},
+        .limits = "settles where a steeper ray would meet the field: flattens toward the horizon, and behind sharp edges shows whatever it lands on",
+    },
+    {
         SHADER(linear_search),
         .title = "Linear search (steep parallax)",
         .summary = "takes equal steps down the ray until one ends below the surface",
@@ -139,6 +151,21 @@ constexpr Technique table[] = {
         .max_fetches = [](const MarchParams& p) { return p.max_steps + p.refine_steps; },
         .budget = {.missed = 0.0085f, .uv_p99_texels = 0.0092f},
         .limits = "sharp where it hits, but steps over what is thinner than a step",
+    },
+    {
+        SHADER(interval_mapping),
+        .title = "Interval mapping",
+        .summary = "brackets the surface by a linear search and closes in on it along chords",
+        .source = {"Risser, Shah, Pattanaik", 2005, "Interval Mapping"},
+        .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .solves = {.level = true, .ramp = true, .wedge = true, .step = true},
+        .precision = [](const MarchParams& p, float) { return Precision{.error = share(p.max_steps), .stride = share(p.max_steps)}; },
+        .converges = {&knob::max_steps, &knob::refine_steps},
+        .maps = {Map::height},
+        .knobs = {{knob::max_steps, 30}, {knob::refine_steps, 2}},
+        .max_fetches = [](const MarchParams& p) { return p.max_steps + 1 + p.refine_steps; },
+        .budget = {.missed = 0.0085f, .uv_p99_texels = 0.059f},
+        .limits = "creeps up to sheer steps, whose foot a chord does not see, and steps over what is thinner than a step",
     },
     {
         SHADER(parallax_slope),
@@ -216,6 +243,23 @@ constexpr Technique table[] = {
         .exact = true,
         .limits = "none in what it finds; its cost grows with grazing views and spiky relief",
     },
+    {
+        SHADER(contact_refinement),
+        .title = "Contact refinement",
+        .summary = "searches the step that met the surface again in shorter steps",
+        .source = {"Riccardi", 2019, "Contact Refinement Parallax Mapping"},
+        .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .solves = {.level = true, .ramp = true, .wedge = true, .step = true},
+        .precision = [](const MarchParams& p, float) {
+            return Precision{.error = share(p.max_steps) * std::pow(share(p.contact_steps), static_cast<float>(p.refine_steps)), .stride = share(p.max_steps)};
+        },
+        .converges = {&knob::max_steps, &knob::refine_steps},
+        .maps = {Map::height},
+        .knobs = {{knob::max_steps, 30}, {knob::refine_steps, 2}, {knob::contact_steps, 4}},
+        .max_fetches = [](const MarchParams& p) { return p.max_steps + p.refine_steps * (p.contact_steps - 1); },
+        .budget = {.missed = 0.0085f, .uv_p99_texels = 0.036f},
+        .limits = "steps over what is thinner than a step",
+    },
 };
 
 #undef SHADER
@@ -248,7 +292,7 @@ const Technique* find_technique(std::string_view id) {
 }
 
 MarchParams default_params(const Technique& technique) {
-    MarchParams params{.max_steps = 1, .min_steps = 1, .refine_steps = 0, .iterations = 1, .tolerance = 1e-3f};
+    MarchParams params{.max_steps = 1, .min_steps = 1, .refine_steps = 0, .contact_steps = 2, .iterations = 1, .tolerance = 1e-3f};
     for (const KnobDefault& d : technique.knobs) d.knob->set(params, d.value);
     return params;
 }

@@ -54,13 +54,23 @@ inline constexpr Knob min_steps{
 };
 inline constexpr Knob refine_steps{
     .id = "refine_steps",
-    .title = "Bisections",
+    .title = "Refinements",
     .unit = "",
-    .help = "halvings of the interval that holds the surface",
+    .help = "refinements of the interval that holds the surface: halvings, secants, or searches in shorter steps",
     .min = 0,
     .max = 32,
     .step = 1,
     .member = &MarchParams::refine_steps,
+};
+inline constexpr Knob contact_steps{
+    .id = "contact_steps",
+    .title = "Steps at contact",
+    .unit = "",
+    .help = "shorter steps into which the step that met the surface is cut at each refinement",
+    .min = 2,
+    .max = 64,
+    .step = 1,
+    .member = &MarchParams::contact_steps,
 };
 inline constexpr Knob iterations{
     .id = "iterations",
@@ -85,7 +95,7 @@ inline constexpr Knob tolerance{
 
 }  // namespace knob
 
-inline constexpr std::array knobs{&knob::max_steps, &knob::min_steps, &knob::refine_steps, &knob::iterations, &knob::tolerance};
+inline constexpr std::array knobs{&knob::max_steps, &knob::min_steps, &knob::refine_steps, &knob::contact_steps, &knob::iterations, &knob::tolerance};
 
 // The knob with this id, or null.
 const Knob* find_knob(std::string_view id);
