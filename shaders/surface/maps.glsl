@@ -14,6 +14,7 @@ vec2 conservative_cone(ivec2 texel);    // of one texel, any integers: a cone is
 vec2 relaxed_cone(ivec2 texel);
 vec2 robust_cone(ivec2 texel);          // height of the texel, and a ratio for any point of its square
 float horizon_at(vec2 uv, int direction);  // code of the horizon's elevation, bilinear; direction in [0,16), as in horizon_shadow
+float distance_at(vec3 uvz);            // distance to the relief in heights, trilinear, rounded down; z in [0,1] (maps/distance_map.h)
 int max_levels();                       // levels of the pyramid of maxima; no fetch
 float max_at(ivec2 node, int level);    // largest corner height in a node; node inside one period
 

@@ -11,8 +11,8 @@
 
 namespace relievo {
 
-enum class Map : std::uint8_t { height, normal, colour, max_pyramid, cone, conservative_cone, relaxed_cone, robust_cone, horizon };
-inline constexpr int map_count = 9;
+enum class Map : std::uint8_t { height, normal, colour, max_pyramid, cone, conservative_cone, relaxed_cone, robust_cone, horizon, distance };
+inline constexpr int map_count = 10;
 
 // Every map, in the order of the enumeration: the index of a map in arrays, and its binding on a device.
 inline constexpr std::array<Map, map_count> every_map = [] {
@@ -32,6 +32,9 @@ struct MaxPyramid {
     std::vector<ImageF> levels;
 };
 
+// Slices of the 3D distance map over the slab, the first at height 0 and the last at height 1.
+inline constexpr int distance_slices = 64;
+
 struct MapSet {
     HeightField height;
     std::vector<ImageF> normal;   // mip chain, 3 channels, unit vectors, tangent space, +Y along +v
@@ -42,6 +45,7 @@ struct MapSet {
     ImageF relaxed_cone;          // like cone, of maps/relaxed_cone.h
     ImageF robust_cone;           // like cone, of maps/robust_cone.h
     ImageF horizon;               // 16 channels: the horizon's elevation by direction, coded (maps/horizon_map.h); empty until baked
+    ImageF distance;              // 1 channel, distance_slices slices stacked upward: maps/distance_map.h; empty until baked
 };
 
 }  // namespace relievo

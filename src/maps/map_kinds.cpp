@@ -2,6 +2,7 @@
 
 #include "maps/cone_map.h"
 #include "maps/conservative_cone.h"
+#include "maps/distance_map.h"
 #include "maps/horizon_map.h"
 #include "maps/max_pyramid.h"
 #include "maps/mip_chain.h"
@@ -114,6 +115,17 @@ constexpr MapKind table[] = {
         .bake = [](MapSet& maps, const MapBake& b) { maps.horizon = horizon_map(maps.height, b.threads, b.progress); },
         .image = &MapSet::horizon,
         .cached_version = 1,
+    },
+    {
+        .map = Map::distance,
+        .id = "distance",
+        .title = "3D distance",
+        .summary = "Euclidean distance to the relief from points of the slab, rounded down so that a sphere of that radius is empty wherever it is read",
+        .format = "heights, in the height-scaled metric; 64 slices stacked upward, at most 512 x 512 voxels each",
+        .source = "Donnelly 2005",
+        .channels = {{{"distance", Rounding::down}}},
+        .bake = [](MapSet& maps, const MapBake& b) { maps.distance = distance_map(maps.height, b.height_scale, b.threads, b.progress); },
+        .image = &MapSet::distance,
     },
 };
 constexpr bool in_order_of_maps() {

@@ -46,7 +46,7 @@ ImageF tiled(const ImageF& map) {
     return sheet;
 }
 
-// A map as it goes into a file: EXR takes the values as they are; PNG takes values in [0,1].
+// A map as it goes into a file: EXR takes the values as they are; PNG takes values in [0,1], and those of [-1,1] at half their size.
 ImageF sheet_of(const MapKind& kind, const MapSet& maps) {
     if (kind.image != nullptr) {
         const ImageF& map = maps.*kind.image;
@@ -77,7 +77,8 @@ ImageF for_png(const MapKind& kind, const ImageF& in) {
     for (int y = 0; y < in.height; ++y)
         for (int x = 0; x < in.width; ++x)
             for (int c = 0; c < in.channels; ++c) {
-                const float value = kind.map == Map::normal ? in(x, y, c) * 0.5f + 0.5f : in(x, y, c);
+                const bool is_signed = kind.map == Map::normal || kind.map == Map::distance;
+                const float value = is_signed ? in(x, y, c) * 0.5f + 0.5f : in(x, y, c);
                 out(x, y, c) = on_grid(value, kind.channels[static_cast<std::size_t>(c)].rounding);
             }
     return out;

@@ -10,13 +10,14 @@ namespace relievo {
 
 namespace {
 
-vk::raii::Sampler sampler(const gpu::Device& device, vk::Filter filter, vk::SamplerMipmapMode mipmaps) {
+vk::raii::Sampler sampler(const gpu::Device& device, vk::Filter filter, vk::SamplerMipmapMode mipmaps,
+                          vk::SamplerAddressMode upward = vk::SamplerAddressMode::eRepeat) {
     return {device.handle(), vk::SamplerCreateInfo{.magFilter = filter,
                                                    .minFilter = filter,
                                                    .mipmapMode = mipmaps,
                                                    .addressModeU = vk::SamplerAddressMode::eRepeat,
                                                    .addressModeV = vk::SamplerAddressMode::eRepeat,
-                                                   .addressModeW = vk::SamplerAddressMode::eRepeat,
+                                                   .addressModeW = upward,
                                                    .maxLod = VK_LOD_CLAMP_NONE}};
 }
 
@@ -53,6 +54,7 @@ FamilyLayout::FamilyLayout(const gpu::Device& device)
     : height_sampler(sampler(device, vk::Filter::eLinear, vk::SamplerMipmapMode::eNearest)),
       trilinear_sampler(sampler(device, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear)),
       nearest_sampler(sampler(device, vk::Filter::eNearest, vk::SamplerMipmapMode::eNearest)),
+      volume_sampler(sampler(device, vk::Filter::eLinear, vk::SamplerMipmapMode::eNearest, vk::SamplerAddressMode::eClampToEdge)),
       maps(set_layout(device, std::vector(map_count, image), fragment | compute)),
       scene(set_layout(device, std::array{uniform, storage}, vk::ShaderStageFlagBits::eVertex | fragment)),
       cast(set_layout(device, std::array{storage, storage}, compute)),

@@ -23,6 +23,7 @@ struct FamilyLayout {
     vk::raii::Sampler height_sampler;     // bilinear, one level
     vk::raii::Sampler trilinear_sampler;  // colour and normals
     vk::raii::Sampler nearest_sampler;    // the pyramid
+    vk::raii::Sampler volume_sampler;     // trilinear, clamped in the third coordinate
     vk::raii::DescriptorSetLayout maps;
     vk::raii::DescriptorSetLayout scene;
     vk::raii::DescriptorSetLayout cast;

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "gpu/half.h"
+#include "gpu/volume.h"
 
 #include <algorithm>
 #include <cstring>
@@ -95,6 +96,23 @@ gpu::Image single_texture(const gpu::Device& device, vk::Format format, const Im
         [&](int, int y, std::byte* out) { std::memcpy(out, image.at(0, y), static_cast<std::size_t>(image.width) * texel); });
 }
 
+// The map's values are half floats already (maps/distance_map.h). A missing map is one voxel on the surface.
+gpu::Image distance_texture(const gpu::Device& device, const ImageF& map) {
+    const int rows = map.height / distance_slices;
+    const vk::Extent3D extent = map.empty() ? vk::Extent3D{1, 1, 1}
+                                            : vk::Extent3D{static_cast<std::uint32_t>(map.width), static_cast<std::uint32_t>(rows), distance_slices};
+    const std::uint32_t limit = device.physical().getProperties().limits.maxImageDimension3D;
+    if (extent.width > limit || extent.height > limit)
+        throw Error("upload", "the distance map", "it is larger than the " + std::to_string(limit) + " voxels " + device.info().name + " takes",
+                    "choose a technique that does without");
+    return gpu::make_volume(device, vk::Format::eR16Sfloat, extent, 2, [&](int slice, int y, std::byte* out) {
+        for (std::uint32_t x = 0; x < extent.width; ++x) {
+            const std::uint16_t voxel = map.empty() ? std::uint16_t{0} : gpu::to_half(map(static_cast<int>(x), slice * rows + y));
+            std::memcpy(out + 2 * x, &voxel, 2);
+        }
+    });
+}
+
 struct Bound {
     gpu::Image image;
     vk::Sampler sampler;
@@ -122,6 +140,7 @@ Bound bound(const gpu::Device& device, const FamilyLayout& layout, Map map, cons
             return {flat(F::eR32G32Sfloat, maps.conservative_cone, {0, 0}, "conservative_cone"), *layout.height_sampler};
         case Map::relaxed_cone: return {flat(F::eR32G32Sfloat, maps.relaxed_cone, {0, 0}, "relaxed_cone"), *layout.height_sampler};
         case Map::robust_cone: return {flat(F::eR32G32Sfloat, maps.robust_cone, {0, 0}, "robust_cone"), *layout.nearest_sampler};
+        case Map::distance: return {distance_texture(device, maps.distance), *layout.volume_sampler};
     }
     return {};
 }
@@ -137,6 +156,7 @@ MapFlags maps_there(const MapSet& maps) {
     there[index_of(Map::relaxed_cone)] = !maps.relaxed_cone.empty();
     there[index_of(Map::robust_cone)] = !maps.robust_cone.empty();
     there[index_of(Map::horizon)] = !maps.horizon.empty();
+    there[index_of(Map::distance)] = !maps.distance.empty();
     return there;
 }
 

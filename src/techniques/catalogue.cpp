@@ -168,6 +168,23 @@ constexpr Technique table[] = {
         .limits = "creeps up to sheer steps, whose foot a chord does not see, and steps over what is thinner than a step",
     },
     {
+        SHADER(distance_mapping),
+        .title = "Distance mapping",
+        .summary = "leaps through a 3D map of distances to the relief, and searches the rest in short steps",
+        .source = {"Donnelly", 2005, "Per-Pixel Displacement Mapping with Distance Functions"},
+        .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .solves = {.level = true, .ramp = true, .wedge = true, .step = true},
+        .precision = [](const MarchParams& p, float) {
+            return Precision{.error = halved(share(p.max_steps), p.refine_steps), .stride = share(p.max_steps)};
+        },
+        .converges = {&knob::max_steps, &knob::refine_steps},
+        .maps = {Map::height, Map::distance},
+        .knobs = {{knob::max_steps, 32}, {knob::refine_steps, 6}},
+        .max_fetches = [](const MarchParams& p) { return 2 * p.max_steps + p.refine_steps; },
+        .budget = {.missed = 0.01f, .uv_p99_texels = 0.01f},
+        .limits = "a map of 64 slices, and fetches twice a step where walls are near; within a voxel of the surface it steps over what is thinner than a step",
+    },
+    {
         SHADER(parallax_slope),
         .title = "Parallax mapping with slope",
         .summary = "weakens the offset-limited shift where the surface is steep",

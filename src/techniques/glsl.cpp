@@ -129,6 +129,25 @@ float horizon_at(vec2 uv, int direction) {
     return horizon;
 }
 
+float distance_at(vec3 uvz) {
+    const ImageF& map = fetched(Map::distance, "distance").distance;
+    const int rows = map.height / distance_slices;
+    const float z = clamp(uvz.z, 0.0f, 1.0f) * static_cast<float>(distance_slices - 1);
+    const int below = std::min(static_cast<int>(z), distance_slices - 2);
+    const float x = uvz.x * static_cast<float>(map.width) - 0.5f;
+    const float y = uvz.y * static_cast<float>(rows) - 0.5f;
+    const int i0 = wrap_index(static_cast<int>(std::floor(x)), map.width);
+    const int j0 = wrap_index(static_cast<int>(std::floor(y)), rows);
+    const int i1 = i0 + 1 == map.width ? 0 : i0 + 1;
+    const int j1 = j0 + 1 == rows ? 0 : j0 + 1;
+    const auto slice = [&](int k) {
+        const float low = mix(map(i0, k * rows + j0), map(i1, k * rows + j0), x - std::floor(x));
+        const float high = mix(map(i0, k * rows + j1), map(i1, k * rows + j1), x - std::floor(x));
+        return mix(low, high, y - std::floor(y));
+    };
+    return mix(slice(below), slice(below + 1), z - static_cast<float>(below));
+}
+
 int max_levels() { return static_cast<int>(declared(Map::max_pyramid, "max_pyramid").max_pyramid.levels.size()); }
 
 float max_at(ivec2 node, int level) {

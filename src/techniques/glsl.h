@@ -83,6 +83,7 @@ vec2 conservative_cone(ivec2 texel);
 vec2 relaxed_cone(ivec2 texel);
 vec2 robust_cone(ivec2 texel);
 float horizon_at(vec2 uv, int direction);
+float distance_at(vec3 uvz);
 int max_levels();
 float max_at(ivec2 node, int level);
 

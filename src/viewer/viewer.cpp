@@ -191,6 +191,8 @@ private:
     void settle_height_scale() {
         worker_.forget();  // it reads the normals
         scale_slopes(baked_.maps.normal, controls_.height_scale / baked_.height_scale);
+        // A sphere of the old metric holds one of the new, smaller by the ratio where the relief grew.
+        for (float& d : baked_.maps.distance.texels) d *= std::min(1.0f, baked_.height_scale / controls_.height_scale);
         baked_.height_scale = controls_.height_scale;
         scene_.set_material(baked_);
         reference_of_.clear();

@@ -11,6 +11,7 @@ layout(set = 0, binding = 5) uniform sampler2D conservative_cone_map;  // biline
 layout(set = 0, binding = 6) uniform sampler2D relaxed_cone_map;       // bilinear, one level
 layout(set = 0, binding = 7) uniform sampler2D robust_cone_map;        // nearest, one level
 layout(set = 0, binding = 8) uniform sampler2DArray horizon_map;  // bilinear, a layer for each direction
+layout(set = 0, binding = 9) uniform sampler3D distance_map;           // trilinear, one level
 
 // Fetches of the search so far. The shade host never reads it, and the compiler drops it there.
 int fetch_count = 0;
@@ -80,6 +81,13 @@ vec2 robust_cone(ivec2 texel) {
 float horizon_at(vec2 uv, int direction) {
     ++fetch_count;
     return textureLod(horizon_map, vec3(uv, float(direction)), 0.0f).x;
+}
+
+float distance_at(vec3 uvz) {
+    ++fetch_count;
+    // The outer slices lie in the planes z = 0 and z = 1, not half a slice inside.
+    float slices = float(textureSize(distance_map, 0).z);
+    return textureLod(distance_map, vec3(uvz.x, uvz.y, (clamp(uvz.z, 0.0f, 1.0f) * (slices - 1.0f) + 0.5f) / slices), 0.0f).x;
 }
 
 int max_levels() { return textureQueryLevels(pyramid_map); }
