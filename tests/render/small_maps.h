@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/map_set.h"
+#include "maps/map_kinds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -128,6 +129,10 @@ inline MapSet small_maps(int size, float height_scale) {
     maps.colour = halved_chain(std::move(colour), false);
     maps.max_pyramid = brute_force_pyramid(maps.height);
     maps.cone = brute_force_cones(maps.height);
+    // The rest, whose definitions have tests of their own, from the program's bakers.
+    for (const MapKind& kind : map_kinds())
+        if (kind.bake != nullptr && kind.image != nullptr && (maps.*kind.image).empty())
+            kind.bake(maps, {.height_scale = height_scale, .threads = 0, .progress = {}});
     return maps;
 }
 
