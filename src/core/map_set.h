@@ -11,8 +11,8 @@
 
 namespace relievo {
 
-enum class Map : std::uint8_t { height, normal, colour, max_pyramid, cone, conservative_cone, relaxed_cone, robust_cone, horizon, distance };
-inline constexpr int map_count = 10;
+enum class Map : std::uint8_t { height, normal, colour, max_pyramid, cone, conservative_cone, relaxed_cone, robust_cone, horizon, distance, cell_cone };
+inline constexpr int map_count = 11;
 
 // Every map, in the order of the enumeration: the index of a map in arrays, and its binding on a device.
 inline constexpr std::array<Map, map_count> every_map = [] {
@@ -35,6 +35,10 @@ struct MaxPyramid {
 // Slices of the 3D distance map over the slab, the first at height 0 and the last at height 1.
 inline constexpr int distance_slices = 64;
 
+// How far the roofs of a cell cone map reach, in cells along either axis.
+inline constexpr int near_roof_reach = 4;
+inline constexpr int far_roof_reach = 32;
+
 struct MapSet {
     HeightField height;
     std::vector<ImageF> normal;   // mip chain, 3 channels, unit vectors, tangent space, +Y along +v
@@ -46,6 +50,7 @@ struct MapSet {
     ImageF robust_cone;           // like cone, of maps/robust_cone.h
     ImageF horizon;               // 16 channels: the horizon's elevation by direction, coded (maps/horizon_map.h); empty until baked
     ImageF distance;              // 1 channel, distance_slices slices stacked upward: maps/distance_map.h; empty until baked
+    ImageF cell_cone;             // 4 channels a cell: largest corner, cone ratio, near roof, far roof; empty until baked
 };
 
 }  // namespace relievo

@@ -1,5 +1,6 @@
 #include "maps/map_kinds.h"
 
+#include "maps/cell_cone.h"
 #include "maps/cone_map.h"
 #include "maps/conservative_cone.h"
 #include "maps/distance_map.h"
@@ -126,6 +127,18 @@ constexpr MapKind table[] = {
         .channels = {{{"distance", Rounding::down}}},
         .bake = [](MapSet& maps, const MapBake& b) { maps.distance = distance_map(maps.height, b.height_scale, b.threads, b.progress); },
         .image = &MapSet::distance,
+    },
+    {
+        .map = Map::cell_cone,
+        .id = "cell_cone",
+        .title = "Cell cone",
+        .summary = "widest upward cone over each bilinear cell that holds nothing of the surface, and roofs over the cells around it",
+        .format = "largest corner, UV radius per unit of height, highest within 4 and within 32 cells",
+        .source = "relievo 2026",
+        .channels = {{{"maximum", Rounding::up}, {"ratio", Rounding::down}, {"near_roof", Rounding::up}, {"far_roof", Rounding::up}}},
+        .bake = [](MapSet& maps, const MapBake& b) { maps.cell_cone = cell_cone_map(maps.height, b.threads, b.progress); },
+        .image = &MapSet::cell_cone,
+        .cached_version = 1,
     },
 };
 constexpr bool in_order_of_maps() {
