@@ -17,6 +17,12 @@ float horizon_at(vec2 uv, int direction);  // code of the horizon's elevation, b
 float distance_at(vec3 uvz);            // distance to the relief in heights, trilinear, rounded down; z in [0,1] (maps/distance_map.h)
 int max_levels();                       // levels of the pyramid of maxima; no fetch
 float max_at(ivec2 node, int level);    // largest corner height in a node; node inside one period
+vec4 cell_cone(ivec2 cell);             // largest corner, cone ratio, near roof and far roof of a cell, any integers (maps/cell_cone.h)
 
 #endif
+
+// How far the roofs of a cell cone reach, in cells along either axis.
+const int near_roof_reach = 4;
+const int far_roof_reach = 32;
+
 #endif

@@ -113,6 +113,13 @@ gpu::Image distance_texture(const gpu::Device& device, const ImageF& map) {
     });
 }
 
+// Values that are whole numbers of 1/65535.
+gpu::Image sixteen_bit_texture(const gpu::Device& device, const ImageF& image, const char* name) {
+    Image<std::uint16_t> whole(image.width, image.height, image.channels);
+    std::ranges::transform(image.texels, whole.texels.begin(), [](float v) { return static_cast<std::uint16_t>(v * 65535.0f + 0.5f); });
+    return single_texture(device, vk::Format::eR16G16B16A16Unorm, whole, name);
+}
+
 struct Bound {
     gpu::Image image;
     vk::Sampler sampler;
@@ -141,6 +148,10 @@ Bound bound(const gpu::Device& device, const FamilyLayout& layout, Map map, cons
         case Map::relaxed_cone: return {flat(F::eR32G32Sfloat, maps.relaxed_cone, {0, 0}, "relaxed_cone"), *layout.height_sampler};
         case Map::robust_cone: return {flat(F::eR32G32Sfloat, maps.robust_cone, {0, 0}, "robust_cone"), *layout.nearest_sampler};
         case Map::distance: return {distance_texture(device, maps.distance), *layout.volume_sampler};
+        case Map::cell_cone:
+            return {maps.cell_cone.empty() ? plain_texture(device, F::eR16G16B16A16Unorm, one_texel<std::uint16_t>({65535, 1, 65535, 65535}), "cell_cone")
+                                           : sixteen_bit_texture(device, maps.cell_cone, "cell_cone"),
+                    *layout.nearest_sampler};
     }
     return {};
 }
@@ -157,6 +168,7 @@ MapFlags maps_there(const MapSet& maps) {
     there[index_of(Map::robust_cone)] = !maps.robust_cone.empty();
     there[index_of(Map::horizon)] = !maps.horizon.empty();
     there[index_of(Map::distance)] = !maps.distance.empty();
+    there[index_of(Map::cell_cone)] = !maps.cell_cone.empty();
     return there;
 }
 

@@ -9,7 +9,8 @@ namespace relievo {
 
 class GpuMaterial {
 public:
-    // Maps that are missing from the set are bound as one texel: height 0, normal (0,0,1), mid-grey, pyramid 1, cone (0, 0).
+    // Maps that are missing from the set are bound as one texel: height 0, normal (0,0,1), mid-grey, pyramid 1, cone (0, 0),
+    // cell cone (1, 0, 1, 1) in 16 bits.
     // Throws Error if a mip chain does not halve from level to level or a map is larger than the device takes.
     GpuMaterial(const gpu::Device& device, const FamilyLayout& layout, const MapSet& maps, float height_scale, float zero_level);
 

@@ -307,6 +307,22 @@ constexpr Technique table[] = {
         .budget = {.missed = 0.0037f, .uv_p99_texels = 0.0055f},
         .limits = "walks from cell to cell in rough relief and stops short when its steps run out; misses what is entered and left within a cell",
     },
+    {
+        SHADER(cell_cone_tracing),
+        .title = "Cell cone tracing",
+        .summary = "leaps by cones that hold nothing of the declared surface and solves each cell it may touch",
+        .source = {"relievo", 2026, "Casting a ray at a height field without ever missing it"},
+        .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
+        .solves = {.level = true, .ramp = true, .wedge = true, .step = true},
+        .precision = [](const MarchParams&, float) { return Precision{}; },
+        .converges = {&knob::max_steps},
+        .maps = {Map::height, Map::cell_cone},
+        .knobs = {{knob::max_steps, 2048}},
+        .max_fetches = [](const MarchParams& p) { return p.max_steps; },
+        .budget = {.missed = 1e-5f, .uv_p99_texels = 1e-2f},
+        .exact = true,
+        .limits = "none in what it finds; its cost grows with grazing views and with spikes close together",
+    },
 };
 
 #undef SHADER

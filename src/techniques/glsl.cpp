@@ -156,4 +156,13 @@ float max_at(ivec2 node, int level) {
     return top;
 }
 
+vec4 cell_cone(ivec2 cell) {
+    const ImageF& map = fetched(Map::cell_cone, "cell_cone").cell_cone;
+    const float* t = map.at(wrap_index(cell.x, map.width), wrap_index(cell.y, map.height));
+    return {t[0], t[1], t[2], t[3]};
+}
+
+#include "surface/maps.glsl"  // for its constants: the declarations in it are not for C++
+static_assert(near_roof_reach == relievo::near_roof_reach && far_roof_reach == relievo::far_roof_reach, "the walk goes as far as the map was baked for");
+
 }  // namespace relievo::glsl

@@ -86,5 +86,6 @@ float horizon_at(vec2 uv, int direction);
 float distance_at(vec3 uvz);
 int max_levels();
 float max_at(ivec2 node, int level);
+vec4 cell_cone(ivec2 cell);
 
 }  // namespace relievo::glsl

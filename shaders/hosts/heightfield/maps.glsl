@@ -12,6 +12,7 @@ layout(set = 0, binding = 6) uniform sampler2D relaxed_cone_map;       // biline
 layout(set = 0, binding = 7) uniform sampler2D robust_cone_map;        // nearest, one level
 layout(set = 0, binding = 8) uniform sampler2DArray horizon_map;  // bilinear, a layer for each direction
 layout(set = 0, binding = 9) uniform sampler3D distance_map;           // trilinear, one level
+layout(set = 0, binding = 10) uniform sampler2D cell_cone_map;  // nearest, one level
 
 // Fetches of the search so far. The shade host never reads it, and the compiler drops it there.
 int fetch_count = 0;
@@ -25,11 +26,10 @@ float height_at(vec2 uv) {
 
 vec4 height_cell(ivec2 cell) {
     ++fetch_count;
-    // Gathered round the cell's middle, half a texel from any other choice of four; wrapped first, so that no precision is lost far
-    // from the origin. A gather starts at the upper left: (0,1), (1,1), (1,0), (0,0).
-    ivec2 size = height_size();
-    ivec2 wrapped = ivec2(cell.x % size.x, cell.y % size.y);
-    vec4 g = textureGather(height_map, (vec2(wrapped) + vec2(1.0f)) / vec2(size), 0);
+    // Gathered round the cell's middle, half a texel from any other choice of four; wrapped first, so that the hardware's own digits are
+    // enough (an integer remainder would cost as much as the gather). It starts at the upper left: (0,1), (1,1), (1,0), (0,0).
+    vec2 periods = (vec2(cell) + vec2(1.0f)) / vec2(height_size());
+    vec4 g = textureGather(height_map, periods - floor(periods), 0);
     return vec4(g.w, g.z, g.x, g.y);
 }
 
@@ -95,6 +95,13 @@ int max_levels() { return textureQueryLevels(pyramid_map); }
 float max_at(ivec2 node, int level) {
     ++fetch_count;
     return texelFetch(pyramid_map, node, level).x;
+}
+
+vec4 cell_cone(ivec2 cell) {
+    ++fetch_count;
+    // Nearest and repeating: to the middle of a texel, which float reaches to far beyond any ray's way.
+    ivec2 size = textureSize(cell_cone_map, 0);
+    return textureLod(cell_cone_map, (vec2(cell) + vec2(0.5f)) / vec2(size), 0.0f);
 }
 
 // Linear albedo; not for searches, so it is not counted.
