@@ -4,6 +4,7 @@
 #include "core/map_set.h"
 
 #include "core/progress.h"
+#include "maps/safe_rounding.h"
 
 #include <array>
 #include <cstdint>
@@ -17,9 +18,6 @@ struct MapBake {
     int threads;         // 0: all cores; no map depends on it
     const Progress& progress;
 };
-
-// Which way a value may move when it is stored in 16 bits without making the map unsafe to skip by.
-enum class Rounding { nearest, up, down };
 
 struct MapChannel {
     std::string_view name;  // in EXR files; empty: there is no such channel

@@ -8,7 +8,6 @@
 #include "pipeline/map_set_bake.h"
 
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <string_view>
 
@@ -59,15 +58,6 @@ ImageF sheet_of(const MapKind& kind, const MapSet& maps) {
         default: break;
     }
     throw UsageError("the " + std::string(kind.id) + " map is not baked; it is the material's own picture");
-}
-
-// The nearest of the 65536 values that a reader gets back from 16 bits, or the next one in the safe direction.
-float on_grid(float value, Rounding rounding) {
-    constexpr float steps = 65535.0f;
-    const float step = std::round(value * steps);
-    if (rounding == Rounding::up && step / steps < value) return (step + 1) / steps;
-    if (rounding == Rounding::down && step / steps > value) return (step - 1) / steps;
-    return step / steps;
 }
 
 // A PNG has 1, 3 or 4 channels that viewers agree on; two channels get an empty third.
