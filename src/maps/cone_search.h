@@ -24,6 +24,10 @@ constexpr float slack = 1.0f + 0x1p-20f;
 constexpr float rounding_down = 1.0f - 0x1p-20f;
 constexpr float no_limit = 4.0f;  // a squared ratio above every bound
 
+struct Corners {
+    float h00, h10, h01, h11;
+};
+
 // A cell as one texel sees it, turned so that it lies in the quadrant of positive x and y: every cell lies wholly in one closed quadrant
 // of every texel centre. Heights are relative to the texel's, places in texels from it.
 struct Cell {

@@ -11,10 +11,10 @@ using Lanes = float __attribute__((vector_size(4 * RELIEVO_LANES)));
 using LaneMask = std::int32_t __attribute__((vector_size(4 * RELIEVO_LANES)));
 constexpr int lane_count = RELIEVO_LANES;
 
-// Cell of cone_search.h as several texels see it.
-struct CellLanes {
-    Lanes h00, h10, h01, h11;
-    Lanes x, y;
+// A cell's first corner as several texels see it: places in texels from them, and their own heights.
+struct Seen {
+    Lanes dx, dy;
+    Lanes apex;
 };
 
 inline bool any(LaneMask mask) {
@@ -50,8 +50,8 @@ inline Lanes squared_ratio(Lanes a, Lanes a1, Lanes e2, Lanes y, float s2, Lanes
 
 // Rule: what a cell does to a cone.
 //   static constexpr int channels, static float reach(...)          as in cone_search.h
-//   static Lanes edges(const CellLanes&, const Metric&)             least squared ratio on the cell's near edges, no_limit for none
-//   static LaneMask may_bind_inside(const CellLanes&)               lanes in which a point inside the cell may be lower still
+//   static LaneMask limit(const Corners&, const Seen&, const Metric&, LaneMask within, Lanes& q)
+//       lowers the squared ratios q by what the cell's edges allow; the lanes in which a point inside the cell may be lower still
 //   static double inside(const Cell&, const Metric&, double least)  the squared ratio of that point, or no_limit if not below `least`
 template <class Rule>
 class Search {
@@ -89,11 +89,19 @@ public:
                 lowest_ = std::min(lowest_, apex);
             }
         widest_ = slack;
-        // What limits a texel of a rough field is mostly beside it; having that first closes most nodes.
-        for (int j = y0 - 2; j < y0 + tile_h + 1; ++j)
-            for (int i = x0 - 2; i < x0 + tile_w + 1; ++i) cell(i, j, wrap_index(i, width_), wrap_index(j, height_));
+        // What limited the tile before mostly limits this one, and else it is beside it; having that first closes most nodes.
+        for (int k = 0; k < kept_; ++k) {
+            const Place seed = seeds_[k];
+            cell(seed.i, seed.j, wrap_index(seed.i, width_), wrap_index(seed.j, height_));
+        }
+        narrowed_ = 0;
+        for (int j = y0 - 1; j < y0 + tile_h; ++j)
+            for (int i = x0 - 1; i < x0 + tile_w; ++i) cell(i, j, wrap_index(i, width_), wrap_index(j, height_));
         tighten();
         descend();
+        // Those that came last narrowed what others had narrowed before. Seeds of the first half come before them again.
+        kept_ = static_cast<int>(std::min<std::size_t>(narrowed_, seed_count));
+        for (int k = 0; k < kept_; ++k) seeds_[k] = recent_[(narrowed_ - 1 - static_cast<std::size_t>(k)) % seed_count];
         for (int g = 0; g < groups; ++g)
             for (int l = 0; l < lane_count; ++l) {
                 const int x = x0 + column(g, l);
@@ -163,13 +171,18 @@ private:
         return static_cast<float>(std::max(0, std::max(low - (first + texels - 1), first - high)));
     }
 
-    // Whether a region of texel coordinates [low, high] with nothing above `top` may limit any texel of the tile.
-    bool may_limit(float top, int low_x, int high_x, int low_y, int high_y) const {
+    // Whether a region of texel coordinates [low, high] with nothing above `top` may limit any texel of the tile, as far as the lowest
+    // of them and the widest cone tell.
+    bool may_limit_any(float top, int low_x, int high_x, int low_y, int high_y) const {
         if (top <= lowest_) return false;
         const float gx = gap(x0_, tile_w, low_x, high_x);
         const float gy = gap(y0_, tile_h, low_y, high_y);
         const float rise = top - lowest_;
-        if (gx * gx * metric_.u2 + gy * gy * metric_.v2 >= widest_ * rise * rise) return false;
+        return gx * gx * metric_.u2 + gy * gy * metric_.v2 < widest_ * rise * rise;
+    }
+
+    bool may_limit(float top, int low_x, int high_x, int low_y, int high_y) const {
+        if (!may_limit_any(top, low_x, high_x, low_y, high_y)) return false;
         LaneMask within{};
         for (int g = 0; g < groups; ++g) {
             const Lanes dx = static_cast<float>(low_x - x0_) - lane_x_[g];
@@ -203,50 +216,42 @@ private:
     // The tile's texels against the cell whose first corner is texel (i, j), unwrapped; (wi, wj) is the same within the period.
     bool cell(int i, int j, int wi, int wj) {
         const float top = reach_of(levels_[0].at(wi, wj), i, i + 1, j, j + 1);
-        if (!may_limit(top, i, i + 1, j, j + 1)) return false;
+        if (!may_limit_any(top, i, i + 1, j, j + 1)) return false;
         const int wi1 = wi + 1 == width_ ? 0 : wi + 1;
         const int wj1 = wj + 1 == height_ ? 0 : wj + 1;
-        const float c00 = texels_(wi, wj);
-        const float c10 = texels_(wi1, wj);
-        const float c01 = texels_(wi, wj1);
-        const float c11 = texels_(wi1, wj1);
+        const Corners corners{texels_(wi, wj), texels_(wi1, wj), texels_(wi, wj1), texels_(wi1, wj1)};
+        bool changed = false;
         for (int g = 0; g < groups; ++g) {
             const Lanes dx = static_cast<float>(i - x0_) - lane_x_[g];
             const Lanes dy = static_cast<float>(j - y0_) - lane_y_[g];
-            const LaneMask right = dx >= 0.0f;
-            const LaneMask up = dy >= 0.0f;
-            CellLanes c;
-            c.x = right ? dx : -1.0f - dx;
-            c.y = up ? dy : -1.0f - dy;
+            const Lanes x = most(dx, -1.0f - dx);
+            const Lanes y = most(dy, -1.0f - dy);
             const Lanes above = top - apex_[g];
-            const Lanes d2 = c.x * c.x * metric_.u2 + c.y * c.y * metric_.v2;
+            const Lanes d2 = x * x * metric_.u2 + y * y * metric_.v2;
             const LaneMask within = (d2 < bound_[g] * above * above) & (above > 0.0f);
             if (!any(within)) continue;
-            const Lanes low_near = right ? c00 - Lanes{} : c10 - Lanes{};
-            const Lanes low_far = right ? c10 - Lanes{} : c00 - Lanes{};
-            const Lanes high_near = right ? c01 - Lanes{} : c11 - Lanes{};
-            const Lanes high_far = right ? c11 - Lanes{} : c01 - Lanes{};
-            c.h00 = (up ? low_near : high_near) - apex_[g];
-            c.h10 = (up ? low_far : high_far) - apex_[g];
-            c.h01 = (up ? high_near : low_near) - apex_[g];
-            c.h11 = (up ? high_far : low_far) - apex_[g];
-            Lanes q = least(q_[g], Rule::edges(c, metric_));
-            const LaneMask inside = within & Rule::may_bind_inside(c) & (d2 < q * slack * above * above);
-            if (any(inside))
-                for (int l = 0; l < lane_count; ++l) {
-                    if (inside[l] == 0) continue;
-                    const double apex = apex_[g][l];
-                    const bool r = right[l] != 0;
-                    const bool p = up[l] != 0;
-                    const double near_low = r ? c00 : c10, far_low = r ? c10 : c00, near_high = r ? c01 : c11, far_high = r ? c11 : c01;
-                    const Cell s{(p ? near_low : near_high) - apex, (p ? far_low : far_high) - apex, (p ? near_high : near_low) - apex,
-                                       (p ? far_high : far_low) - apex, c.x[l], c.y[l]};
-                    q[l] = std::min(q[l], static_cast<float>(Rule::inside(s, metric_, q[l])));
-                }
-            q_[g] = q;
-            bound_[g] = bound_[g] > 0.0f ? q * slack : bound_[g];
+            const Lanes before = q_[g];
+            const LaneMask inside = Rule::limit(corners, {dx, dy, apex_[g]}, metric_, within, q_[g]) & (d2 < q_[g] * slack * above * above);
+            if (any(inside)) search_inside(corners, g, dx, dy, inside);
+            bound_[g] = bound_[g] > 0.0f ? q_[g] * slack : bound_[g];
+            changed |= any(q_[g] < before);
         }
-        return true;
+        if (changed) recent_[narrowed_++ % seed_count] = {i, j};
+        return changed;
+    }
+
+    __attribute__((noinline)) void search_inside(const Corners& c, int g, Lanes dx, Lanes dy, LaneMask inside) {
+        for (int l = 0; l < lane_count; ++l) {
+            if (inside[l] == 0) continue;
+            const double apex = apex_[g][l];
+            const bool right = dx[l] >= 0;
+            const bool up = dy[l] >= 0;
+            const double low_near = right ? c.h00 : c.h10, low_far = right ? c.h10 : c.h00;
+            const double high_near = right ? c.h01 : c.h11, high_far = right ? c.h11 : c.h01;
+            const Cell turned{(up ? low_near : high_near) - apex, (up ? low_far : high_far) - apex, (up ? high_near : low_near) - apex,
+                              (up ? high_far : low_far) - apex,   right ? dx[l] : -1 - dx[l],       up ? dy[l] : -1 - dy[l]};
+            q_[g][l] = std::min(q_[g][l], static_cast<float>(Rule::inside(turned, metric_, q_[g][l])));
+        }
     }
 
     void tighten() {
@@ -262,6 +267,16 @@ private:
     Metric metric_;
     std::vector<Node> open_;
 
+    // Cells that narrowed a cone of this tile, the latest ones, and what is taken over from the tile before. A row of tiles starts with
+    // none, so that the result does not depend on how rows are shared out.
+    struct Place {
+        int i, j;
+    };
+    static constexpr std::size_t seed_count = 16;
+    Place recent_[seed_count], seeds_[seed_count];
+    std::size_t narrowed_ = 0;
+    int kept_ = 0;
+
     int x0_ = 0, y0_ = 0;
     Lanes lane_x_[groups], lane_y_[groups];  // places of the lanes in the tile
     Lanes apex_[groups];     // heights of the tile's texels
@@ -273,9 +288,10 @@ private:
 
 template <class Rule>
 void search_rows(const Rows& rows) {
-    Search<Rule> search(rows.field, rows.levels);
-    for (int row = rows.begin; row < rows.end; ++row)
+    for (int row = rows.begin; row < rows.end; ++row) {
+        Search<Rule> search(rows.field, rows.levels);
         for (int x = 0; x < rows.field.width(); x += tile_w) search.run(x, row * tile_h, rows.cones);
+    }
 }
 
 }  // namespace relievo::cone_search::RELIEVO_MACHINE

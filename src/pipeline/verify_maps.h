@@ -1,6 +1,7 @@
 // The proofs of what baked maps promise, as they are stored, and how often the published definitions break the same promise.
 #pragma once
 
+#include "core/map_set.h"
 #include "core/progress.h"
 #include "maps/cone_verifier.h"
 #include "pipeline/material_source.h"
