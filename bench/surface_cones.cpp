@@ -1,0 +1,159 @@
+// Time of the exact cones of the bilinear surface on six kinds of field, against the plain way of finding the conservative ones: a scan
+// in growing rings of cells that stops once a ring is too far away to matter. The scan looks at corners and edges only and leaves
+// out the insides of cells, which favours it. Both use all cores and run in turn, A B A B; "ring_scan_over_ours" is the ratio of the
+// medians of the run. And the time of proving a map with the verifier, with the share of cones that it finds broken.
+#include "fields.h"
+#include "maps/cone_map.h"
+#include "maps/cone_verifier.h"
+#include "maps/conservative_cone.h"
+#include "maps/quick_cone.h"
+#include "maps/relaxed_cone.h"
+#include "maps/robust_cone.h"
+#include "maps/safe_rounding.h"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace relievo;
+using namespace relievo::bench;
+
+using Shape = float (*)(float, float, int);
+using Baker = ImageF (*)(const HeightField&, int, const Progress&);
+
+// One texel's cone; `falling` leaves out points at which the surface does not fall outward, seen from the texel.
+class RingScan {
+public:
+    RingScan(const HeightField& field, bool falling)
+        : field_(field), falling_(falling), w_(field.width()), h_(field.height()), u2_(1.0f / static_cast<float>(w_ * w_)), v2_(1.0f / static_cast<float>(h_ * h_)) {}
+
+    float ratio(int x, int y, float highest) {
+        q_ = 1;
+        apex_ = field_.texels(x, y);
+        const float most = highest - apex_;
+        const float shorter = 1.0f / static_cast<float>(std::max(w_, h_));
+        for (int r = 0; r <= std::max(w_, h_) && most > 0; ++r) {
+            const float nearest = static_cast<float>(r) * shorter;
+            if (nearest * nearest * 0.99999f >= q_ * most * most) break;
+            // Cells at r whole cells from the texel, on all four sides: columns and rows -r - 1 and r.
+            for (int d = -r - 1; d <= r; ++d) {
+                cell(x, y, d, r);
+                cell(x, y, d, -r - 1);
+            }
+            for (int d = -r; d < r; ++d) {
+                cell(x, y, r, d);
+                cell(x, y, -r - 1, d);
+            }
+        }
+        return std::sqrt(q_);
+    }
+
+private:
+    void cell(int x, int y, int i, int j) {
+        const auto c = field_.cell(x + i, y + j);
+        const bool right = i >= 0;
+        const bool up = j >= 0;
+        const float h00 = c[(right ? 0u : 1u) + (up ? 0u : 2u)] - apex_, h10 = c[(right ? 1u : 0u) + (up ? 0u : 2u)] - apex_;
+        const float h01 = c[(right ? 0u : 1u) + (up ? 2u : 0u)] - apex_, h11 = c[(right ? 1u : 0u) + (up ? 2u : 0u)] - apex_;
+        if (std::max(std::max(h00, h10), std::max(h01, h11)) <= 0) return;
+        const float px = static_cast<float>(right ? i : -1 - i);
+        const float py = static_cast<float>(up ? j : -1 - j);
+        const float corner = px * (h10 - h00) + py * (h01 - h00);
+        edge(h00, h01, px * px * u2_, py, v2_, corner, px * (h11 - h01) + (py + 1) * (h01 - h00));
+        edge(h00, h10, py * py * v2_, px, u2_, corner, py * (h11 - h10) + (px + 1) * (h10 - h00));
+    }
+
+    void edge(float h0, float h1, float e2, float along, float s2, float fall0, float fall1) {
+        float low = 0;
+        float high = 1;
+        if (falling_) {
+            if (fall0 >= 0 && fall1 >= 0) return;
+            if (fall0 >= 0) low = fall0 / (fall0 - fall1);
+            if (fall1 >= 0) high = fall0 / (fall0 - fall1);
+        }
+        const float foot = (h0 - (h1 - h0) * along) * s2;
+        const float v = foot > 0 ? std::clamp((h1 - h0) * e2 / foot - along, low, high) : high;
+        const float rise = v < 0.5f ? h0 + (h1 - h0) * v : h1 - (h1 - h0) * (1 - v);
+        if (rise > 0) q_ = std::min(q_, (e2 + (along + v) * (along + v) * s2) / (rise * rise));
+    }
+
+    const HeightField& field_;
+    bool falling_;
+    int w_, h_;
+    float u2_, v2_;
+    float apex_ = 0;
+    float q_ = 1;
+};
+
+ImageF ring_scan(const HeightField& field, bool falling) {
+    const float highest = *std::ranges::max_element(field.texels.texels);
+    ImageF cones(field.width(), field.height(), 2);
+    parallel_for(field.height(), 4, 0, [&](int begin, int end) {
+        RingScan scan(field, falling);
+        for (int y = begin; y < end; ++y)
+            for (int x = 0; x < field.width(); ++x) {
+                cones(x, y, 0) = field.texels(x, y);
+                cones(x, y, 1) = scan.ratio(x, y, highest);
+            }
+    });
+    return cones;
+}
+
+void bake(benchmark::State& state, Baker baker, Shape shape, int size, bool falling, bool against_rings) {
+    const HeightField field = make(shape, size);
+    std::vector<double> ours;
+    std::vector<double> rings;
+    ImageF result;
+    ImageF scanned;
+    for (auto _ : state) {
+        ours.push_back(seconds_of([&] { result = baker(field, 0, {}); }));
+        if (against_rings) rings.push_back(seconds_of([&] { scanned = ring_scan(field, falling); }));
+        state.SetIterationTime(ours.back());
+    }
+    state.counters["ours_ms_median"] = 1e3 * median(ours);
+    if (!against_rings) return;
+    state.counters["ring_scan_over_ours"] = median(rings) / median(ours);
+    for (std::size_t k = 1; k < result.texels.size(); k += 2)
+        if (result.texels[k] > scanned.texels[k] * 1.00001f) return state.SkipWithError("a cone is wider than the scan allows");
+}
+
+void prove(benchmark::State& state, Shape shape, const std::string& kind) {
+    const HeightField field = make(shape, 512);
+    const ImageF map = kind == "conservative" ? conservative_cone(field)
+                       : kind == "relaxed"    ? relaxed_cone(field)
+                       : kind == "sampled"    ? cone_map(field)
+                       : kind == "quick"      ? quick_cone(field)
+                                              : robust_cone(field);
+    const ImageF stored = as_stored(map, {Rounding::up, Rounding::down, Rounding::nearest, Rounding::nearest});
+    const std::vector<ConeApex> cones = kind == "robust" ? scattered_cones(field, stored, 1) : texel_cones(stored);
+    Verification v;
+    for (auto _ : state) v = verify_cones(field, cones, kind == "relaxed" ? ConePromise::relaxed : ConePromise::conservative);
+    state.counters["violated_percent"] = 100.0 * static_cast<double>(v.violated) / static_cast<double>(v.cones);
+    state.counters["undecided"] = static_cast<double>(v.undecided);
+    state.counters["checks"] = static_cast<double>(v.checks);
+    state.counters["pairs"] = static_cast<double>(v.pairs);
+}
+
+#define FIELD(name) \
+    BENCHMARK_CAPTURE(bake, conservative_##name##_1024, conservative_cone, name, 1024, false, false)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(3); \
+    BENCHMARK_CAPTURE(bake, relaxed_##name##_1024, relaxed_cone, name, 1024, true, false)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(3); \
+    BENCHMARK_CAPTURE(bake, conservative_##name##_256_against_rings, conservative_cone, name, 256, false, true)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(3); \
+    BENCHMARK_CAPTURE(bake, relaxed_##name##_256_against_rings, relaxed_cone, name, 256, true, true)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(3); \
+    BENCHMARK_CAPTURE(prove, name##_conservative, name, "conservative")->UseRealTime()->Unit(benchmark::kMillisecond)->Iterations(1); \
+    BENCHMARK_CAPTURE(prove, name##_relaxed, name, "relaxed")->UseRealTime()->Unit(benchmark::kMillisecond)->Iterations(1); \
+    BENCHMARK_CAPTURE(prove, name##_sampled, name, "sampled")->UseRealTime()->Unit(benchmark::kMillisecond)->Iterations(1); \
+    BENCHMARK_CAPTURE(prove, name##_quick, name, "quick")->UseRealTime()->Unit(benchmark::kMillisecond)->Iterations(1); \
+    BENCHMARK_CAPTURE(prove, name##_robust, name, "robust")->UseRealTime()->Unit(benchmark::kMillisecond)->Iterations(1)
+FIELD(fbm);
+FIELD(cobbles);
+FIELD(spikes);
+FIELD(flat);
+FIELD(steps);
+FIELD(grooves);
+
+}  // namespace
