@@ -12,7 +12,7 @@ namespace relievo {
 struct LinYuWeights {
     float faces = -0.7f;       // k2, per face drawn: negative, as drawing many faces for few vertices is the aim
     float freshness = 1.28f;   // k3, times how far the vertex will be from leaving the cache: old vertices first
-    float evicted = 0.055f;    // per vertex that leaves the cache with faces left, and will have to come back
+    float evicted = 0.15f;     // per vertex that leaves the cache with faces left, and will have to come back
     float opened = 0.1f;       // per face left at the vertices that enter: an open front is a promise to be kept
     float undecided = 0.15f;   // two vertices whose costs differ by less are both tried one step further; 0 never looks ahead
 };

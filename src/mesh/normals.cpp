@@ -52,11 +52,32 @@ Vec3f unit(Vec3f v) {
     return exact > 0 ? Vec3f(Vec3d(v) / exact) : Vec3f{};
 }
 
-// The interior angles. Their sum is half a turn, so the third costs nothing.
-std::array<float, 3> angles(const Corners& c) {
-    const Vec3f a = unit(c.position[1] - c.position[0]), b = unit(c.position[2] - c.position[1]), d = unit(c.position[0] - c.position[2]);
-    const float first = arc_cosine(-dot(a, d)), second = arc_cosine(-dot(a, b));
-    return {first, second, std::max(0.0f, std::numbers::pi_v<float> - first - second)};
+// The unit normal and the interior angles, whose sum is half a turn, so that the third costs nothing.
+struct FaceDirections {
+    Vec3f normal;
+    std::array<float, 3> angle;
+};
+
+FaceDirections directions(const Corners& c, bool with_angles) {
+    const Vec3f a = c.position[1] - c.position[0], b = c.position[2] - c.position[1], d = c.position[0] - c.position[2];
+    const float a2 = dot(a, a), b2 = dot(b, b), d2 = dot(d, d);
+    const Vec3f n = cross(d, a);
+    const float n2 = dot(n, n);
+    FaceDirections face;
+    // Floats are good for all but thin faces (here below half a degree) and sizes whose fourth power leaves their range.
+    const float smallest = std::min({a2, b2, d2}), largest = std::max({a2, b2, d2});
+    if (smallest > 1e-12f && largest < 1e12f && n2 > 1e-4f * a2 * d2) {
+        face.normal = n / std::sqrt(n2);
+        if (!with_angles) return face;
+        const float first = arc_cosine(-dot(a, d) / std::sqrt(a2 * d2)), second = arc_cosine(-dot(a, b) / std::sqrt(a2 * b2));
+        face.angle = {first, second, std::max(0.0f, std::numbers::pi_v<float> - first - second)};
+        return face;
+    }
+    face.normal = unit(area_vector(c));
+    const Vec3f ua = unit(a), ub = unit(b), ud = unit(d);
+    const float first = arc_cosine(-dot(ua, ud)), second = arc_cosine(-dot(ua, ub));
+    face.angle = {first, second, std::max(0.0f, std::numbers::pi_v<float> - first - second)};
+    return face;
 }
 
 // Distinct normals of one position in order of their first face. Sixteen hold all but the wildest; more go to the heap.
@@ -110,7 +131,7 @@ std::vector<Vec3f> continuous_normals(const Mesh& mesh, NormalMode mode, int thr
             for (std::uint32_t p = begin; p < end; ++p) {
                 distinct.seen.clear();
                 for (std::uint32_t i = around.offset[p - begin]; i < around.offset[p - begin + 1]; ++i) {
-                    const Vec3f n = unit(area_vector(corners_of(mesh, place, around.face[i])));
+                    const Vec3f n = directions(corners_of(mesh, place, around.face[i]), false).normal;
                     if (dot(n, n) > 0 && distinct.is_new(n)) normals[p] += n;
                 }
             }
@@ -118,10 +139,9 @@ std::vector<Vec3f> continuous_normals(const Mesh& mesh, NormalMode mode, int thr
             for (std::size_t f = 0; f < mesh.faces(); ++f) {
                 const Corners c = corners_of(mesh, place, f);
                 if (!mine(c.place[0]) && !mine(c.place[1]) && !mine(c.place[2])) continue;
-                const Vec3f n = unit(area_vector(c));
-                const std::array<float, 3> weight = mode == NormalMode::angle ? angles(c) : std::array{1.0f, 1.0f, 1.0f};
+                const FaceDirections face = directions(c, mode == NormalMode::angle);
                 for (std::size_t k = 0; k < 3; ++k)
-                    if (mine(c.place[k])) normals[c.place[k]] += n * weight[k];
+                    if (mine(c.place[k])) normals[c.place[k]] += mode == NormalMode::angle ? face.normal * face.angle[k] : face.normal;
             }
         }
         // What is left of unit normals that cancel is rounding; its direction would mean nothing.
