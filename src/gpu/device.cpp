@@ -194,12 +194,15 @@ Device::Device(const DeviceSettings& settings) : messages_(std::make_unique<Mess
         const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = queue_family_, .queueCount = 1, .pQueuePriorities = &priority};
         // maintenance4 because SPIR-V 1.6 states a workgroup's size in the way that it brings; Vulkan 1.3 devices all have it.
         const vk::PhysicalDeviceVulkan13Features features{.synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
+        counts_vertices_ = physical_.getFeatures().pipelineStatisticsQuery;
+        const vk::PhysicalDeviceFeatures basic{.pipelineStatisticsQuery = counts_vertices_};
         device_ = vk::raii::Device(
             physical_, vk::DeviceCreateInfo{.pNext = &features,
                                             .queueCreateInfoCount = 1,
                                             .pQueueCreateInfos = &queue,
                                             .enabledExtensionCount = static_cast<std::uint32_t>(settings.device_extensions.size()),
-                                            .ppEnabledExtensionNames = settings.device_extensions.data()});
+                                            .ppEnabledExtensionNames = settings.device_extensions.data(),
+                                            .pEnabledFeatures = &basic});
         queue_ = device_.getQueue(queue_family_, 0);
         pool_ = vk::raii::CommandPool(device_, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eTransient,
                                                                          .queueFamilyIndex = queue_family_});

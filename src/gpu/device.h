@@ -49,6 +49,7 @@ public:
     const vk::raii::Queue& queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
     double nanoseconds_per_tick() const { return nanoseconds_per_tick_; }
+    bool counts_vertices() const { return counts_vertices_; }  // has pipeline statistics
 
     // Records commands, runs them and waits for their end.
     void run(const std::function<void(const vk::raii::CommandBuffer&)>& record) const;
@@ -65,6 +66,7 @@ private:
     DeviceInfo info_;
     std::uint32_t queue_family_ = 0;
     double nanoseconds_per_tick_ = 1;
+    bool counts_vertices_ = false;
     vk::raii::Device device_ = nullptr;
     vk::raii::Queue queue_ = nullptr;
     vk::raii::CommandPool pool_ = nullptr;

@@ -9,6 +9,10 @@ namespace {
 // Enough that a band of a large map is worth a submission, little against the maps themselves.
 constexpr std::size_t staging_bytes = std::size_t{8} << 20;
 
+vk::ImageAspectFlags aspect_of(vk::Format format) {
+    return format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
+}
+
 }  // namespace
 
 Image make_image(const Device& device, vk::Format format, vk::Extent2D extent, std::uint32_t levels, vk::ImageUsageFlags usage,
@@ -37,7 +41,7 @@ Image make_image(const Device& device, vk::Format format, vk::Extent2D extent, s
         device.handle(), vk::ImageViewCreateInfo{.image = *image.handle,
                                                  .viewType = layers == 0 ? vk::ImageViewType::e2D : vk::ImageViewType::e2DArray,
                                                  .format = format,
-                                                 .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, levels, 0, image.layers}});
+                                                 .subresourceRange = {aspect_of(format), 0, levels, 0, image.layers}});
     return image;
 }
 
@@ -51,7 +55,7 @@ void transition(const vk::raii::CommandBuffer& commands, const Image& image, vk:
                                           .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                           .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                           .image = *image.handle,
-                                          .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, image.levels, 0, image.layers}};
+                                          .subresourceRange = {aspect_of(image.format), 0, image.levels, 0, image.layers}};
     commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
 }
 

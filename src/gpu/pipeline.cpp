@@ -27,8 +27,17 @@ vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout
         {.stage = vk::ShaderStageFlagBits::eVertex, .module = *vertex, .pName = "main"},
         {.stage = vk::ShaderStageFlagBits::eFragment, .module = *fragment, .pName = "main", .pSpecializationInfo = &constants}};
 
-    const vk::PipelineVertexInputStateCreateInfo no_vertices;
-    const vk::PipelineInputAssemblyStateCreateInfo strip{.topology = vk::PrimitiveTopology::eTriangleStrip};
+    const bool has_vertices = !settings.attributes.empty();
+    const bool has_depth = settings.depth != vk::Format::eUndefined;
+    const vk::VertexInputBindingDescription binding{.stride = settings.vertex_bytes};
+    const vk::PipelineVertexInputStateCreateInfo vertices{.vertexBindingDescriptionCount = has_vertices ? 1u : 0u,
+                                                          .pVertexBindingDescriptions = &binding,
+                                                          .vertexAttributeDescriptionCount = static_cast<std::uint32_t>(settings.attributes.size()),
+                                                          .pVertexAttributeDescriptions = settings.attributes.data()};
+    const vk::PipelineInputAssemblyStateCreateInfo assembly{
+        .topology = has_vertices ? vk::PrimitiveTopology::eTriangleList : vk::PrimitiveTopology::eTriangleStrip};
+    const vk::PipelineDepthStencilStateCreateInfo depth{
+        .depthTestEnable = has_depth, .depthWriteEnable = has_depth, .depthCompareOp = vk::CompareOp::eLess};
     const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
     const vk::PipelineRasterizationStateCreateInfo raster{.lineWidth = 1};
     const vk::PipelineMultisampleStateCreateInfo one_sample{.rasterizationSamples = vk::SampleCountFlagBits::e1};
@@ -39,16 +48,18 @@ vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout
     const vk::DynamicState dynamic[] = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
     const vk::PipelineDynamicStateCreateInfo dynamic_state{.dynamicStateCount = 2, .pDynamicStates = dynamic};
     const vk::PipelineRenderingCreateInfo rendering{.colorAttachmentCount = static_cast<std::uint32_t>(settings.targets.size()),
-                                                    .pColorAttachmentFormats = settings.targets.data()};
+                                                    .pColorAttachmentFormats = settings.targets.data(),
+                                                    .depthAttachmentFormat = settings.depth};
     return {device.handle(), nullptr,
             vk::GraphicsPipelineCreateInfo{.pNext = &rendering,
                                            .stageCount = 2,
                                            .pStages = stages,
-                                           .pVertexInputState = &no_vertices,
-                                           .pInputAssemblyState = &strip,
+                                           .pVertexInputState = &vertices,
+                                           .pInputAssemblyState = &assembly,
                                            .pViewportState = &viewport,
                                            .pRasterizationState = &raster,
                                            .pMultisampleState = &one_sample,
+                                           .pDepthStencilState = &depth,
                                            .pColorBlendState = &blend,
                                            .pDynamicState = &dynamic_state,
                                            .layout = layout}};

@@ -1,4 +1,4 @@
-// Pipelines from SPIR-V: drawing into targets of given formats (dynamic rendering, no blending, no depth), and computing.
+// Pipelines from SPIR-V: drawing into targets of given formats (dynamic rendering, no blending), and computing.
 #pragma once
 
 #include "gpu/device.h"
@@ -13,6 +13,9 @@ struct DrawPipeline {
     std::span<const std::uint32_t> fragment;
     std::span<const std::uint32_t> fragment_constants;  // specialization constants 0, 1, 2 ...: int, uint or bool
     std::span<const vk::Format> targets;
+    std::span<const vk::VertexInputAttributeDescription> attributes = {};  // of binding 0; none: a strip made up by the vertex program
+    std::uint32_t vertex_bytes = 0;                                        // of binding 0, which holds a list of triangles
+    vk::Format depth = vk::Format::eUndefined;                             // of a depth buffer that nearer faces win
 };
 
 vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout, const DrawPipeline& settings);

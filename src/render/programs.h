@@ -8,7 +8,7 @@
 namespace relievo {
 
 struct Program {
-    std::string_view host;       // file name in shaders/hosts/heightfield
+    std::string_view host;       // file name in shaders/hosts/heightfield, or with its folder in shaders/hosts
     std::string_view technique;  // id, or empty for a host that runs none
     std::span<const std::uint32_t> words;
 };
