@@ -36,6 +36,7 @@ StepKind kind_at_point(Map map) {
         case Map::conservative_cone:
         case Map::relaxed_cone:
         case Map::robust_cone: return StepKind::cone;
+        case Map::distance: return StepKind::sphere;
         default: return StepKind::other;
     }
 }
@@ -148,6 +149,7 @@ Search search_along(const Section& section, const Technique& technique, const Ma
             step.x = x_of(f.uv);
             step.value = f.value.x;
             if (step.kind == StepKind::cone) step.size = f.value.y * section.texels_per_uv;
+            if (step.kind == StepKind::sphere) step.size = f.value.x;
             if (step.kind == StepKind::normal) {
                 // n is upright on the surface: its heights fall by n.s / n.z along a direction s.
                 const Vec2d direction = section.uv_per_texel * section.texels_per_uv;

@@ -145,7 +145,10 @@ float distance_at(vec3 uvz) {
         const float high = mix(map(i0, k * rows + j1), map(i1, k * rows + j1), x - std::floor(x));
         return mix(low, high, y - std::floor(y));
     };
-    return mix(slice(below), slice(below + 1), z - static_cast<float>(below));
+    const float distance = mix(slice(below), slice(below + 1), z - static_cast<float>(below));
+    if (fetch_log != nullptr)
+        fetch_log->back() = {.map = Map::distance, .place = Fetch::Place::volume, .uv = {uvz.x, uvz.y}, .height = uvz.z, .value = {distance, 0, 0, 0}};
+    return distance;
 }
 
 int max_levels() { return static_cast<int>(declared(Map::max_pyramid, "max_pyramid").max_pyramid.levels.size()); }
@@ -159,7 +162,9 @@ float max_at(ivec2 node, int level) {
 vec4 cell_cone(ivec2 cell) {
     const ImageF& map = fetched(Map::cell_cone, "cell_cone").cell_cone;
     const float* t = map.at(wrap_index(cell.x, map.width), wrap_index(cell.y, map.height));
-    return {t[0], t[1], t[2], t[3]};
+    const vec4 over{t[0], t[1], t[2], t[3]};
+    note_node(Fetch::Place::node, {wrap_index(cell.x, map.width), wrap_index(cell.y, map.height)}, 0, over);
+    return over;
 }
 
 #include "surface/maps.glsl"  // for its constants: the declarations in it are not for C++
