@@ -363,15 +363,18 @@ class Large(unittest.TestCase):
                 requestAnimationFrame(() => done(times));""")
             print(f"large report: opened in {opened:.2f} s; all rows, sort, other material: " + ", ".join(f"{t:.0f} ms" for t in spent))
             driver.execute_script("const all = document.getElementById('table-material'); all.value = ''; all.dispatchEvent(new Event('change'))")
-            self.assertIn("1080 of 1080", driver.find_element(By.ID, "table-count").text)
+            shown, rows = re.match(r"(\d+) of (\d+)", driver.find_element(By.ID, "table-count").text).groups()
+            self.assertEqual(shown, rows)
+            rows = int(rows)
+            self.assertGreater(rows, 1000)
             counts = []
             for _ in range(40):  # scrolled to its end, it has shown them all
                 counts.append(driver.execute_script("const r = document.getElementById('rows'); r.scrollTop = r.scrollHeight; return r.querySelectorAll('tbody tr').length"))
-                if counts[-1] == 1080:
+                if counts[-1] == rows:
                     break
                 time.sleep(0.1)
             self.assertLess(counts[0], 400)
-            self.assertEqual(counts[-1], 1080)
+            self.assertEqual(counts[-1], rows)
             # Generous: a shared machine of two cores; a tenth of this when it is idle.
             self.assertLess(opened, 15)
             self.assertLess(max(spent), 3000)

@@ -44,7 +44,7 @@ TEST(Page, WritesTheSampleReport) {
 
 TEST(Page, WritesALargeReport) {
     const Results results = test::many_rows(30, 5);
-    ASSERT_EQ(results.rows.size(), 1080u);
+    ASSERT_EQ(results.rows.size(), 30 * 3 * techniques().size());
     const auto begin = std::chrono::steady_clock::now();
     const std::string html = page_html(results);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -1,6 +1,7 @@
 #include "sample_results.h"
 
 #include "core/parallel_for.h"
+#include "maps/map_kinds.h"
 #include "report/pixels.h"
 #include "scenes/scene.h"
 #include "techniques/catalogue.h"
@@ -137,6 +138,10 @@ MapSet maps_of(const Relief& relief) {
             }
         }
     });
+    // The others from the program's bakers: the table's techniques read them.
+    for (const MapKind& kind : map_kinds())
+        if (kind.bake != nullptr && kind.image != nullptr && (maps.*kind.image).empty())
+            kind.bake(maps, {.height_scale = relief.height_scale, .threads = 0, .progress = {}});
     return maps;
 }
 
