@@ -1,4 +1,4 @@
-// Share of the key light that arrives at a hit, by the way that was chosen (techniques/modifiers.h). `mode` is a constant of the
+// Share of the key light that arrives at a hit, by the way that was chosen (techniques/modifiers.h). The modes are constants of the
 // program, so that only one way is left in it.
 #ifndef RELIEVO_SHADING_KEY_SHADOW
 #define RELIEVO_SHADING_KEY_SHADOW
@@ -10,18 +10,20 @@
 #include "weighted_shadow.glsl"
 
 // to_light: toward the light's middle, unit, tangent space.
-float key_shadow(SurfaceRay ray, SurfaceHit hit, vec3 to_light, float bias, MarchParams params, int mode, DrawNumbers numbers) {
+float key_shadow(SurfaceRay ray, SurfaceHit hit, vec3 to_light, float bias, MarchParams params, DrawModes modes, DrawNumbers numbers) {
     float visible = 1.0f;
+    int mode = modes.shadow;
+    float chart = modes.border == border_repeat ? 0.0f : numbers.chart;
     if (mode == shadow_hard) {
-        visible = self_shadow(ray, hit, to_light, bias, params);
+        visible = self_shadow(ray, hit, to_light, bias, params, chart);
     } else if (mode == shadow_area) {
-        visible = area_shadow(ray, hit, to_light, bias, params, numbers.light_radius, numbers.shadow_samples);
+        visible = area_shadow(ray, hit, to_light, bias, params, chart, numbers.light_radius, numbers.shadow_samples);
     } else if (mode == shadow_horizon) {
         visible = horizon_shadow(ray, hit, to_light, numbers.light_radius);
     } else if (mode != shadow_none && to_light.z <= 0.0f) {
         visible = 0.0f;
     } else if (mode == shadow_soft) {
-        visible = penetration_shadow(light_ray(ray, hit, to_light, 0.0f), numbers.shadow_depth, numbers.shadow_samples);
+        visible = penetration_shadow(over_chart(light_ray(ray, hit, to_light, 0.0f), chart), numbers.shadow_depth, numbers.shadow_samples);
     } else if (mode == shadow_tatarchuk) {
         visible = weighted_shadow(light_ray(ray, hit, to_light, 0.0f), hit, numbers.shadow_softening);
     }

@@ -17,7 +17,7 @@ vec3 disc_direction(vec3 to_light, float radius, vec2 point) {
 // Share of a disc that stands above a straight horizon; `above` is how far its middle does, in radii.
 float disc_above(float above) {
     float x = clamp(above, -1.0f, 1.0f);
-    return 0.5f + (x * sqrt(1.0f - x * x) + asin(x)) * 0.31830989f;
+    return clamp(0.5f + (x * sqrt(1.0f - x * x) + asin(x)) * 0.31830989f, 0.0f, 1.0f);
 }
 
 #endif

@@ -6,7 +6,7 @@
 vec3 phong(vec3 colour, float specular, float shininess, vec3 normal, vec3 view, vec3 to_light) {
     float facing = dot(normal, to_light);
     vec3 mirrored = normal * (2.0f * facing) - to_light;
-    float highlight = specular * pow(max(dot(mirrored, view), 0.0f), shininess);
+    float highlight = facing > 0.0f ? specular * pow(max(dot(mirrored, view), 0.0f), shininess) : 0.0f;
     return colour * max(facing, 0.0f) + vec3(highlight);
 }
 

@@ -3,17 +3,21 @@
 #ifndef RELIEVO_SHADING_SELF_SHADOW
 #define RELIEVO_SHADING_SELF_SHADOW
 
+#include "../surface/chart.glsl"
 #include "../surface/ray_entry.glsl"
 
 // 1 where the key light arrives, 0 where the relief is in its way. to_light is unit, tangent space. The light ray ends `bias` (a
 // share of the relief's amplitude) above the hit, or a hit that lies a little below the field would shadow itself; what that
-// costs is that the first `bias` of a shadow's foot is lit.
-float self_shadow(SurfaceRay ray, SurfaceHit hit, vec3 to_light, float bias, MarchParams params) {
+// costs is that the first `bias` of a shadow's foot is lit. chart: as in surface/chart.glsl; nothing beyond it casts a shadow.
+float self_shadow(SurfaceRay ray, SurfaceHit hit, vec3 to_light, float bias, MarchParams params, float chart) {
     float visible = 1.0f;
     if (to_light.z <= 0.0f) {
         visible = 0.0f;  // below the plane's horizon
     } else if (hit.height + bias < 1.0f) {  // else nothing rises above the hit
-        if (technique(light_ray(ray, hit, to_light, bias), params).found) visible = 0.0f;
+        SurfaceRay light = over_chart(light_ray(ray, hit, to_light, bias), chart);
+        if (light.z_start > light.z_end) {
+            if (technique(light, params).found) visible = 0.0f;
+        }
     }
     return visible;
 }

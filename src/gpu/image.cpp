@@ -9,10 +9,6 @@ namespace {
 // Enough that a band of a large map is worth a submission, little against the maps themselves.
 constexpr std::size_t staging_bytes = std::size_t{8} << 20;
 
-vk::ImageAspectFlags aspect_of(vk::Format format) {
-    return format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
-}
-
 }  // namespace
 
 Image make_image(const Device& device, vk::Format format, vk::Extent2D extent, std::uint32_t levels, vk::ImageUsageFlags usage,
@@ -22,6 +18,7 @@ Image make_image(const Device& device, vk::Format format, vk::Extent2D extent, s
     image.extent = extent;
     image.levels = levels;
     image.layers = std::max(1u, layers);
+    if (usage & vk::ImageUsageFlagBits::eDepthStencilAttachment) image.aspect = vk::ImageAspectFlagBits::eDepth;
     image.handle = vk::raii::Image(device.handle(), vk::ImageCreateInfo{.imageType = vk::ImageType::e2D,
                                                                         .format = format,
                                                                         .extent = {extent.width, extent.height, 1},
@@ -41,7 +38,7 @@ Image make_image(const Device& device, vk::Format format, vk::Extent2D extent, s
         device.handle(), vk::ImageViewCreateInfo{.image = *image.handle,
                                                  .viewType = layers == 0 ? vk::ImageViewType::e2D : vk::ImageViewType::e2DArray,
                                                  .format = format,
-                                                 .subresourceRange = {aspect_of(format), 0, levels, 0, image.layers}});
+                                                 .subresourceRange = {image.aspect, 0, levels, 0, image.layers}});
     return image;
 }
 
@@ -55,7 +52,7 @@ void transition(const vk::raii::CommandBuffer& commands, const Image& image, vk:
                                           .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                           .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                           .image = *image.handle,
-                                          .subresourceRange = {aspect_of(image.format), 0, image.levels, 0, image.layers}};
+                                          .subresourceRange = {image.aspect, 0, image.levels, 0, image.layers}};
     commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
 }
 

@@ -17,6 +17,7 @@ struct Image {
     vk::Extent2D extent;
     std::uint32_t levels = 1;
     std::uint32_t layers = 1;
+    vk::ImageAspectFlags aspect = vk::ImageAspectFlagBits::eColor;  // depth for depth formats
 };
 
 // layers: 0 for a plain image, else of an array.

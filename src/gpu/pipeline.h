@@ -15,7 +15,7 @@ struct DrawPipeline {
     std::span<const vk::Format> targets;
     std::span<const vk::VertexInputAttributeDescription> attributes = {};  // of binding 0; none: a strip made up by the vertex program
     std::uint32_t vertex_bytes = 0;                                        // of binding 0, which holds a list of triangles
-    vk::Format depth = vk::Format::eUndefined;                             // of a depth buffer that nearer faces win
+    vk::Format depth = vk::Format::eUndefined;  // of a depth target that is tested (nearer wins) and written; undefined: there is none
 };
 
 vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout, const DrawPipeline& settings);

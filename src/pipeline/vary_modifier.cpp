@@ -1,12 +1,14 @@
 #include "pipeline/vary_modifier.h"
 
 #include "assets/frame_file.h"
+#include "assets/image_file.h"
 #include "core/error.h"
 #include "measure/display_values.h"
 #include "measure/flip.h"
 #include "measure/psnr.h"
 #include "pipeline/compare.h"
 #include "pipeline/map_set_bake.h"
+#include "pipeline/picture_sheet.h"
 #include "pipeline/reference_picture.h"
 #include "render/gpu_renderer.h"
 #include "techniques/catalogue.h"
@@ -62,6 +64,32 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
+VarySettings example_of(const Modifier& modifier) {
+    VarySettings s{.modifier = &modifier, .materials = {{.folder = "cobbles"}}, .views = {*parse_view("middle")}};
+    s.width = 300;
+    s.height = 170;
+    s.runs = 1;
+    s.samples = 9;
+    s.options.numbers.light_radius = 0.1f;
+    s.options.numbers.facets = 24;
+    s.options.numbers.metallic = 1;
+    s.options.numbers.roughness = 0.35f;
+    if (modifier.id == "edge") {  // as a pixel without further samples shows it
+        s.samples = 1;
+        s.truth_samples = 25;
+        s.width = 150;
+        s.height = 85;
+    } else if (modifier.id == "mip") {
+        s.samples = 1;
+        s.truth_samples = 289;
+        s.views = {*parse_view("grazing")};
+    } else if (modifier.id != "shadow" && modifier.id != "shading") {
+        s.views = {*parse_view("grazing")};
+    }
+    if (modifier.id == "steps") s.technique = find_technique("relief_mapping");
+    return s;
+}
+
 Varied vary_modifier(const VarySettings& settings, const Progress& progress) {
     for (const MaterialSource& source : settings.materials) check_source(source);
     const Modifier& modifier = *settings.modifier;
@@ -102,6 +130,7 @@ Varied vary_modifier(const VarySettings& settings, const Progress& progress) {
             const PictureSettings picture{.width = settings.width, .height = settings.height, .options = {}, .offsets = offsets};
             const std::vector<Frame> frames = gpu.draw_timed(stage, *uploaded, timed, picture, settings.runs, progress);
             Frame truth;
+            std::vector<Image8> panels;
             for (std::size_t i = 0; i < frames.size(); ++i) {
                 if (i == 0 || modifier.truth < 0)
                     truth = sampled_truth(gpu, stage, *uploaded, baked.maps, settings.width, settings.height, truth_offsets,
@@ -120,12 +149,16 @@ Varied vary_modifier(const VarySettings& settings, const Progress& progress) {
                                        .psnr_db = psnr_db(shown_picture, shown_truth, settings.threads).value.value_or(99),
                                        .shadow_error = shadow_error(frames[i], truth),
                                        .gpu_ms = median(frames[i].gpu_ms)});
+                panels.push_back(srgb_picture(frames[i].colour));
+                if (i + 1 == frames.size() || modifier.truth < 0) panels.push_back(srgb_picture(truth.colour));
                 if (settings.pictures.empty()) continue;
                 const std::string prefix = name + "-" + view.id + "-" + std::string(modifier.id) + "-";
                 write_frame_png(fs::path(settings.pictures) / (prefix + value + ".png"), frames[i].colour);
                 if (i == 0 || modifier.truth < 0)
                     write_frame_png(fs::path(settings.pictures) / (prefix + (modifier.truth < 0 ? value + "-" : "") + "truth.png"), truth.colour);
             }
+            if (!settings.sheet.empty() && &view == &shown.front() && &source == &settings.materials.front())
+                write_png(settings.sheet, in_rows(std::move(panels), modifier.truth < 0 ? 2 : 3), FirstRow::top);
         }
     }
     return result;

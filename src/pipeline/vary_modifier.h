@@ -19,6 +19,7 @@ struct VarySettings {
     DrawOptions options{};                 // of everything but the modifier that is varied
     std::string device;
     std::string pictures;                  // a folder for the pictures of every value and of the truth; empty: none are kept
+    std::string sheet;                     // one picture of them all, as PNG: the values of the first material and view, then the truth; empty: none
     int width = 448;
     int height = 252;
     int runs = 11;                         // timed runs of each value, interleaved
@@ -43,6 +44,10 @@ struct Varied {
     std::string truth;            // the options of the truth, in words
     std::vector<VariedRow> rows;  // by material, view and value, in the order of the table
 };
+
+// A material, view and numbers under which the values of a modifier differ to the eye, at the size of a figure. What it leaves open is
+// left as it is.
+VarySettings example_of(const Modifier& modifier);
 
 // Throws Error where a material cannot be loaded, or a picture not be written.
 Varied vary_modifier(const VarySettings& settings, const Progress& progress);

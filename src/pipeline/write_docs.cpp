@@ -13,8 +13,10 @@
 #include "measure/hits.h"
 #include "pipeline/compare.h"
 #include "pipeline/map_set_bake.h"
+#include "pipeline/picture_sheet.h"
 #include "pipeline/reference_picture.h"
 #include "pipeline/telling_rays.h"
+#include "pipeline/vary_modifier.h"
 #include "render/cpu_renderer.h"
 #include "render/gpu_renderer.h"
 #include "techniques/catalogue.h"
@@ -262,37 +264,6 @@ std::string tables_page() {
     return out.str();
 }
 
-// Pictures side by side with a thin gap, as one.
-Image8 beside(const std::vector<Image8>& panels) {
-    constexpr int gap = 6;
-    int width = -gap;
-    for (const Image8& p : panels) width += p.width + gap;
-    Image8 sheet(width, panels.front().height, 3, 255);
-    int x0 = 0;
-    for (const Image8& p : panels) {
-        for (int y = 0; y < p.height; ++y)
-            for (int x = 0; x < p.width; ++x)
-                for (int c = 0; c < 3; ++c) sheet(x0 + x, y, c) = p(x, y, c);
-        x0 += p.width + gap;
-    }
-    return sheet;
-}
-
-Image8 stacked(const std::vector<Image8>& rows) {
-    Image8 sheet(rows.front().width, 0, 3);
-    for (const Image8& r : rows) {
-        sheet.texels.insert(sheet.texels.end(), r.texels.begin(), r.texels.end());
-        sheet.height += r.height;
-    }
-    return sheet;
-}
-
-Image8 srgb_picture(const ImageF& linear) {
-    Image8 out(linear.width, linear.height, 3);
-    for (std::size_t i = 0; i < out.texels.size(); ++i) out.texels[i] = srgb_from_linear(linear.texels[i]);
-    return out;
-}
-
 // Draws a technique on a scene on the GPU, with the reference and the error picture.
 class Figures {
 public:
@@ -394,6 +365,14 @@ void write_docs(const DocsSettings& settings, const Progress& progress) {
     write_file_atomically(out / "effects.md", effects_page(settings.threads));
 
     if (figures) {
+        // Every modifier under all its values, where it shows.
+        for (const Modifier& m : modifiers()) {
+            VarySettings vary = example_of(m);
+            vary.device = settings.device;
+            vary.threads = settings.threads;
+            vary.sheet = (out / "figures" / ("modifier-" + std::string(m.id) + ".png")).string();
+            vary_modifier(vary, {});
+        }
         // The front page's picture: from flat to exact, on one material, with the errors under each.
         std::vector<Image8> pictures, errors;
         for (const char* id : {"normal_mapping", "parallax_mapping", "linear_search", "cone_step_mapping", "max_mip_tracing"}) {

@@ -6,7 +6,8 @@
 
 namespace relievo {
 
-double reference_horizon(const HeightField& field, const ReferenceHit& point, Vec2d toward, double least, double enough) {
+double reference_horizon(const HeightField& field, const ReferenceHit& point, Vec2d toward, double least, double enough,
+                         double farthest) {
     assert(!field.empty() && point.found && least > 0);
     const Vec2d size{static_cast<double>(field.width()), static_cast<double>(field.height())};
     // t is the distance in UV. The walk asks for the field itself: a line of height `point.height` that does not climb.
@@ -18,7 +19,8 @@ double reference_horizon(const HeightField& field, const ReferenceHit& point, Ve
         const double entered = walk.entered();
         // Nothing is higher than 1, so from here on nothing rises steeper.
         if (entered > here && (1 - point.height) <= steepest * entered) break;
-        const double leave = walk.leaves();
+        if (entered >= farthest) break;
+        const double leave = std::min(walk.leaves(), farthest);
         if (entered <= here || walk.highest_corner() - point.height > steepest * entered) {
             CellGap g = walk.gap(point.height, 0);
             if (entered <= here) {
@@ -42,7 +44,7 @@ double reference_horizon(const HeightField& field, const ReferenceHit& point, Ve
 }
 
 double reference_light_share(const HeightField& field, const ReferenceHit& point, Vec3d to_light, double height_scale,
-                             double radius_rad, int slices) {
+                             double radius_rad, int slices, double chart) {
     assert(radius_rad > 0 && slices > 0);
     const double elevation = std::asin(std::clamp(to_light.z, -1.0, 1.0));
     const double flat_length = std::hypot(to_light.x, to_light.y);
@@ -61,7 +63,11 @@ double reference_light_share(const HeightField& field, const ReferenceHit& point
         // A horizon below the slice's foot hides none of it; a whole period of a field 1 high and this foot would be walked for
         // nothing, so the foot is never quite 0.
         const double least = std::max(std::tan(low) / height_scale, 1e-3);
-        const double slope = reference_horizon(field, point, {std::cos(a), std::sin(a)}, least, std::tan(high) / height_scale);
+        const Vec2d toward{std::cos(a), std::sin(a)};
+        const auto to_border = [&](double at, double by) { return by > 0 ? (chart - at) / by : by < 0 ? -at / by : 1e9; };
+        const double farthest = chart > 0 ? std::max(0.0, std::min(to_border(point.uv.x, toward.x), to_border(point.uv.y, toward.y)))
+                                          : std::numeric_limits<double>::infinity();
+        const double slope = reference_horizon(field, point, toward, least, std::tan(high) / height_scale, farthest);
         const double horizon = std::atan(slope * height_scale);
         seen += std::clamp(high - std::max(horizon, low), 0.0, 2 * half);
     }

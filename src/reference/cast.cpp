@@ -54,12 +54,13 @@ ReferenceHit reference_cast(const HeightField& field, const ReferenceRay& ray) {
     return hit;
 }
 
-bool reference_shadow(const HeightField& field, const ReferenceHit& point, Vec3d to_light, double height_scale) {
-    assert(!field.empty() && point.found);
+bool reference_shadow(const HeightField& field, const ReferenceHit& point, Vec3d to_light, double height_scale,
+                      double highest) {
+    assert(!field.empty() && point.found && highest <= 1);
     if (!(to_light.z > 0)) return true;
     const Vec2d size{static_cast<double>(field.width()), static_cast<double>(field.height())};
     const Vec2d speed = Vec2d{to_light.x, to_light.y} * (height_scale / std::max(to_light.z, flattest_cosine)) * size;
-    const double end = 1 - point.height;
+    const double end = std::max(0.0, highest - point.height);
 
     // t is the climb since the point. The gap is 0 there by definition, not by evaluation, and passes from cell to cell unbroken
     // because the surface does: the known root is factored out instead of stepped over, so a point on a wall or on a crease is

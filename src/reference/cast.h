@@ -36,14 +36,28 @@ ReferenceHit reference_cast(const HeightField& field, const ReferenceRay& ray);
 
 // Whether the straight line from a surface point toward a light (unit, tangent space) meets the surface again before it leaves
 // the slab at z = 1: true means hidden. A point whose patch faces away from the light is hidden, so is every point from a light
-// at or below the plane; a line that only touches the surface is not. The point must be found, and lie in its cell.
-bool reference_shadow(const HeightField& field, const ReferenceHit& point, Vec3d to_light, double height_scale);
+// at or below the plane; a line that only touches the surface is not. The point must be found, and lie in its cell. `highest`: the
+// line is followed up to this height, at most 1.
+bool reference_shadow(const HeightField& field, const ReferenceHit& point, Vec3d to_light, double height_scale, double highest = 1);
+
+// How the surface reflects. Blinn-Phong's exponent is four times Phong's; GGX has Smith's masking with correlated heights and Schlick's
+// Fresnel from 0.04 or the metal's colour; Gouraud and flat shading are Phong's light at the corners, or on the one best plane, of the
+// cells of a grid laid over the relief.
+inline constexpr Vec3d sheet_colour{0.02, 0.08, 0.12};
+
+enum class Reflection { phong, blinn_phong, ggx, gouraud, flat };
 
 struct ReferenceSettings {
     float height_scale = 0.05f;
     float zero_level = 1;
     bool shadow = true;   // cast exact shadows from the key light (the first)
     double light_radius_rad = 0;  // of the key light's disc (area_light.h); 0: a point, with hard shadows
+    double chart = 0;      // beyond the square [0, chart]^2 of UV there is no surface; 0: it repeats
+    Reflection reflection = Reflection::phong;
+    double roughness = 0.5;  // of GGX, perceptual
+    double metallic = 0;
+    double sheet = -1;       // height of an opaque level sheet over the base, of one colour, that hides what is lower; negative: none
+    int facets = 64;         // cells along a repeat, for Gouraud and flat shading
     Vec2d uv_at_origin{1, 1};  // texture coordinate of the world's origin: half the quad's periods; places the hit for lights at a distance
     int threads = 0;      // 0: all cores; the result does not depend on it
 };
@@ -52,7 +66,8 @@ struct ReferenceSettings {
 // all samples in linear light. Lights are in world space, of which tangent space is a translation here (flat base, t = +x).
 // Shading: lighting.h's Phong on colour and normals at the exact hit, filtered bilinearly (colour texels decoded to linear
 // first) and between the two levels of the map's chain next to clamp(lod + log2(longer side), 0, levels - 1). No highlight where
-// the normal faces away from the light. Pixels off the base hold the background. Fetches are 0: there are none to compare.
+// the normal faces away from the light. Pixels off the base hold the background, and so do those whose ray meets no surface on the
+// chart (coverage no_hit). Fetches are 0: there are none to compare.
 // Throws Error where a map is missing; all samples are of one size.
 Frame reference_frame(std::span<const RayField> samples, const MapSet& maps, const Lighting& lighting,
                       const ReferenceSettings& settings, const Progress& progress = {});

@@ -6,6 +6,8 @@
 #include "reference/cell_walk.h"
 
 #include <array>
+#include <numbers>
+#include <utility>
 
 namespace relievo {
 
@@ -59,6 +61,7 @@ struct Shaded {
     Vec3d normal;
     Vec3d colour;
     double key_visibility = 1;
+    bool under_sheet = false;
 };
 
 class Shader {
@@ -73,12 +76,28 @@ public:
         const Vec3d view = normalize(Vec3d{v[0], v[1], v[2]});
         const Vec2d uv_per_height = Vec2d{view.x, view.y} * (settings_.height_scale / std::max(view.z, flattest_cosine));
         // Above the highest texel there is nothing to find.
-        const ReferenceRay ray{.uv = {rays.uv(x, y, 0), rays.uv(x, y, 1)},
-                               .uv_per_height = uv_per_height,
-                               .zero_level = settings_.zero_level,
-                               .z_start = std::clamp(highest_, 0.0, 1.0)};
-        Shaded result{.hit = reference_cast(maps_.height, ray), .normal = {}, .colour = {}};
+        ReferenceRay ray{.uv = {rays.uv(x, y, 0), rays.uv(x, y, 1)},
+                         .uv_per_height = uv_per_height,
+                         .zero_level = settings_.zero_level,
+                         .z_start = std::clamp(highest_, 0.0, 1.0)};
+        if (settings_.chart > 0) {
+            const Heights over = heights_over_chart(ray.uv, ray.uv_per_height);
+            ray.z_start = std::min(ray.z_start, over.highest);
+            ray.z_end = std::max(ray.z_end, over.lowest);
+        }
+        Shaded result{};
+        if (ray.z_start >= ray.z_end) result.hit = reference_cast(maps_.height, ray);
+        if (!result.hit.found) {
+            result.colour = Vec3d(lighting_.background);
+            return result;
+        }
         const ReferenceHit& hit = result.hit;
+        if (settings_.sheet >= 0 && hit.height < settings_.sheet) {
+            // The sheet ends with the base, of which the ray's way to it may have left.
+            const Vec2d at = ray.uv + ray.uv_per_height * (settings_.sheet - settings_.zero_level);
+            const Vec2d edge = settings_.uv_at_origin * 2.0;
+            result.under_sheet = at.x >= 0 && at.y >= 0 && at.x <= edge.x && at.y <= edge.y;
+        }
         const double lod = rays.lod(x, y);
         const Vec3d albedo = trilinear(maps_.colour, hit.uv, lod);
         result.normal = normalize(trilinear(maps_.normal, hit.uv, lod));
@@ -102,20 +121,110 @@ public:
                 visibility = key_light_share(hit, l);
                 result.key_visibility = visibility;
             }
-            const double n_l = dot(n, l);
-            const Vec3d r = n * (2 * n_l) - l;
-            const double highlight = n_l > 0 ? std::pow(std::max(0.0, dot(r, view)), lighting_.shininess) : 0.0;
-            const Vec3d reflected = albedo * std::max(0.0, n_l) + Vec3d(lighting_.specular * highlight);
-            result.colour += Vec3d(light.colour) * reflected * (visibility * fading);
+            result.colour += Vec3d(light.colour) * reflected(albedo, hit, n, view, l, lod) * (visibility * fading);
         }
+        if (result.under_sheet) result.colour = sheet_colour;
         return result;
     }
 
 private:
+    struct Heights {
+        double lowest, highest;
+    };
+    // At which a line stands over the chart.
+    Heights heights_over_chart(Vec2d uv, Vec2d uv_per_height) const {
+        Heights all{-1e9, 1e9};
+        for (const auto& [at, by] : {std::pair{uv.x, uv_per_height.x}, std::pair{uv.y, uv_per_height.y}}) {
+            if (by == 0) {
+                if (at < 0 || at > settings_.chart) all.lowest = 1e9;
+                continue;
+            }
+            const double a = settings_.zero_level - at / by;
+            const double b = settings_.zero_level + (settings_.chart - at) / by;
+            all.lowest = std::max(all.lowest, std::min(a, b));
+            all.highest = std::min(all.highest, std::max(a, b));
+        }
+        return all;
+    }
+
+    // Phong's terms for white light: Lambert's and the highlight's.
+    struct Terms {
+        double diffuse, highlight;
+    };
+    Terms phong(Vec3d n, Vec3d view, Vec3d l) const {
+        const double n_l = dot(n, l);
+        if (!(n_l > 0)) return {0, 0};
+        return {n_l, lighting_.specular * std::pow(std::max(0.0, dot(n * (2 * n_l) - l, view)), static_cast<double>(lighting_.shininess))};
+    }
+
+    Vec3d reflected(Vec3d albedo, const ReferenceHit& hit, Vec3d n, Vec3d view, Vec3d l, double lod) const {
+        Terms t{};
+        switch (settings_.reflection) {
+            case Reflection::phong: t = phong(n, view, l); break;
+            case Reflection::blinn_phong: {
+                const double n_l = dot(n, l);
+                if (n_l > 0) t = {n_l, lighting_.specular * std::pow(std::max(0.0, dot(n, normalize(l + view))), 4.0 * lighting_.shininess)};
+                break;
+            }
+            case Reflection::ggx: return ggx(albedo, n, view, l);
+            case Reflection::flat: t = phong(facet_normal(hit.uv), view, l); break;
+            case Reflection::gouraud: {
+                const double cells = settings_.facets;
+                const Vec2d p = hit.uv * cells;
+                const Vec2d corner{std::floor(p.x), std::floor(p.y)};
+                const Vec2d inside = p - corner;
+                for (int k = 0; k < 4; ++k) {
+                    const Vec2d place{static_cast<double>(k % 2), static_cast<double>(k / 2)};
+                    const double share = (k % 2 == 1 ? inside.x : 1 - inside.x) * (k / 2 == 1 ? inside.y : 1 - inside.y);
+                    const Terms vertex = phong(normalize(trilinear(maps_.normal, (corner + place) * (1 / cells), lod)), view, l);
+                    t.diffuse += share * vertex.diffuse;
+                    t.highlight += share * vertex.highlight;
+                }
+                break;
+            }
+        }
+        return albedo * t.diffuse + Vec3d(t.highlight);
+    }
+
+    // Walter et al. 2007, eq. 33 for the normals; Heitz 2014, eq. 99 for the masking; Schlick 1994. With a factor pi, as the lights of
+    // this program shine: a white Lambert surface that faces one is as bright as it.
+    Vec3d ggx(Vec3d albedo, Vec3d n, Vec3d view, Vec3d l) const {
+        const double n_l = dot(n, l);
+        if (!(n_l > 0)) return {};
+        const double n_v = std::max(dot(n, view), 1e-3);
+        const Vec3d h = normalize(l + view);
+        const double alpha = settings_.roughness * settings_.roughness;
+        const double cos2 = std::min(1.0, dot(n, h) * dot(n, h));
+        const double tan2 = (1 - cos2) / cos2;
+        const double d = alpha * alpha / (std::numbers::pi * cos2 * cos2 * (alpha * alpha + tan2) * (alpha * alpha + tan2));
+        const auto lambda = [&](double c) { return (std::sqrt(1 + alpha * alpha * (1 - c * c) / (c * c)) - 1) / 2; };
+        const double masking = 1 / (1 + lambda(n_l) + lambda(n_v));
+        const Vec3d head_on = Vec3d(0.04) * (1 - settings_.metallic) + albedo * settings_.metallic;
+        const Vec3d fresnel = head_on + (Vec3d(1) - head_on) * std::pow(1 - std::clamp(dot(view, h), 0.0, 1.0), 5);
+        const Vec3d specular = fresnel * (d * masking / (4 * n_l * n_v));
+        const Vec3d diffuse = albedo * (Vec3d(1) - fresnel) * ((1 - settings_.metallic) / std::numbers::pi);
+        return (diffuse + specular) * (std::numbers::pi * n_l);
+    }
+
+    Vec3d facet_normal(Vec2d uv) const {
+        const double cells = settings_.facets;
+        const Vec2d corner{std::floor(uv.x * cells) / cells, std::floor(uv.y * cells) / cells};
+        const auto height = [&](double u, double v) { return maps_.height.sample(corner + Vec2d{u, v} * (1 / cells)); };
+        const double h00 = height(0, 0), h10 = height(1, 0), h01 = height(0, 1), h11 = height(1, 1);
+        const double slope = settings_.height_scale * cells / 2;
+        return normalize(Vec3d{(h00 - h10 + h01 - h11) * slope, (h00 - h01 + h10 - h11) * slope, 1});
+    }
+
     double key_light_share(const ReferenceHit& hit, Vec3d to_light) const {
         if (settings_.light_radius_rad > 0)
-            return reference_light_share(maps_.height, hit, to_light, settings_.height_scale, settings_.light_radius_rad);
-        return reference_shadow(maps_.height, hit, to_light, settings_.height_scale) ? 0 : 1;
+            return reference_light_share(maps_.height, hit, to_light, settings_.height_scale, settings_.light_radius_rad, 16,
+                                         settings_.chart);
+        double highest = 1;
+        if (settings_.chart > 0) {
+            const Vec2d per_height = Vec2d{to_light.x, to_light.y} * (settings_.height_scale / std::max(to_light.z, flattest_cosine));
+            highest = std::min(1.0, heights_over_chart(hit.uv + per_height * (settings_.zero_level - hit.height), per_height).highest);
+        }
+        return reference_shadow(maps_.height, hit, to_light, settings_.height_scale, highest) ? 0 : 1;
     }
 
     const MapSet& maps_;
@@ -161,6 +270,10 @@ Frame reference_frame(std::span<const RayField> samples, const MapSet& maps, con
                     const Shaded s = shade(samples[k], x, y);
                     sum += s.colour;
                     if (k > 0) continue;
+                    if (!s.hit.found) {
+                        frame.coverage(x, y) = static_cast<std::uint8_t>(Coverage::no_hit);
+                        continue;
+                    }
                     frame.coverage(x, y) = static_cast<std::uint8_t>(Coverage::hit);
                     frame.hit_uv(x, y, 0) = static_cast<float>(s.hit.uv.x);
                     frame.hit_uv(x, y, 1) = static_cast<float>(s.hit.uv.y);

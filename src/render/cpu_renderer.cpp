@@ -15,6 +15,7 @@ thread_local HeightFieldFunction technique = nullptr;
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // shader headers hold functions that only other files call
 #include "shading/key_shadow.glsl"
+#include "surface/modified_ray.glsl"
 #include "shading/shading_normal.glsl"
 #pragma GCC diagnostic pop
 
@@ -35,7 +36,8 @@ Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, fl
     frame.source = "cpu";
     const glsl::BoundMaps searched = declared_maps(technique, maps);
     const glsl::BoundMaps all{.maps = &maps, .readable = MapFlags().set()};
-    const int shadow = lighting.lights.empty() ? glsl::shadow_none : shadow_of(technique, options);
+    glsl::DrawModes modes = options;
+    modes.shadow = lighting.lights.empty() ? glsl::shadow_none : shadow_of(technique, options);
     const float bias = shadow_bias(technique, params);
     // A device finds one level texel where there is no normal map.
     const bool lacks_normals = technique.shaded_by == ShadedBy::normal_map && maps.normal.empty();
@@ -47,11 +49,12 @@ Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, fl
                 if (rays.coverage(x, y) != static_cast<std::uint8_t>(Coverage::hit)) continue;
                 const float* uv = rays.uv.at(x, y);
                 const float* view = rays.view.at(x, y);
-                const auto ray =
-                    glsl::view_ray({uv[0], uv[1]}, {view[0], view[1], view[2]}, height_scale, zero_level, rays.lod(x, y));
                 glsl::bound_maps = searched;
                 glsl::fetch_count = 0;
-                const auto hit = technique.heightfield(ray, params);
+                const auto ray = glsl::modified_ray(
+                    glsl::view_ray({uv[0], uv[1]}, {view[0], view[1], view[2]}, height_scale, zero_level, rays.lod(x, y)), modes,
+                    options.numbers);
+                const auto hit = glsl::modified_search(ray, glsl::modified_march(params, ray, modes, options.numbers), modes, options.numbers);
                 frame.coverage(x, y) = static_cast<std::uint8_t>(hit.found ? Coverage::hit : Coverage::no_hit);
                 if (!hit.found) continue;
                 frame.fetches(x, y) = static_cast<float>(glsl::fetch_count);
@@ -61,15 +64,15 @@ Frame cpu_trace(const RayField& rays, const MapSet& maps, float height_scale, fl
 
                 const Vec3f position(hit.uv, (hit.height - zero_level) * height_scale);
                 // Ways of the technique's own see its maps and no others.
-                if (!traces_shadow(shadow)) glsl::bound_maps = all;
-                if (shadow != glsl::shadow_none)
-                    frame.shadow(x, y) = glsl::key_shadow(ray, hit, to_light(lighting.lights[0], position), bias, params, shadow,
+                if (!traces_shadow(modes.shadow)) glsl::bound_maps = all;
+                if (modes.shadow != glsl::shadow_none)
+                    frame.shadow(x, y) = glsl::key_shadow(ray, hit, to_light(lighting.lights[0], position), bias, params, modes,
                                                           options.numbers);
                 else
                     frame.shadow(x, y) = 1.0f;
 
                 glsl::bound_maps = all;
-                const Vec3f normal = glsl::shading_normal(shaded_by, hit.uv, ray.lod, height_scale);
+                const Vec3f normal = glsl::shading_normal(shaded_by, hit.uv, ray.lod, ray.height_scale);
                 frame.normal(x, y, 0) = normal.x;
                 frame.normal(x, y, 1) = normal.y;
                 frame.normal(x, y, 2) = normal.z;

@@ -58,7 +58,7 @@ FamilyLayout::FamilyLayout(const gpu::Device& device)
       maps(set_layout(device, std::vector(map_count, image), fragment | compute)),
       scene(set_layout(device, std::array{uniform, storage}, vk::ShaderStageFlagBits::eVertex | fragment)),
       cast(set_layout(device, std::array{storage, storage}, compute)),
-      draw_pipeline(pipeline_layout(device, *maps, *scene, fragment)),
+      draw_pipeline(pipeline_layout(device, *maps, *scene, vk::ShaderStageFlagBits::eVertex | fragment)),
       cast_pipeline(pipeline_layout(device, *maps, *cast, compute)) {}
 
 DescriptorSet make_descriptor_set(const gpu::Device& device, const vk::raii::DescriptorSetLayout& layout,

@@ -52,10 +52,13 @@ public:
     vk::Pipeline cast_pipeline(const Technique& technique);
 
 private:
-    using Key = std::tuple<std::string, std::string, std::array<std::uint32_t, 3>, std::vector<vk::Format>>;
+    vk::Pipeline sheet_pipeline(const Draw& draw);
+
+    using Key = std::tuple<std::string, std::string, std::vector<std::uint32_t>, std::vector<vk::Format>, bool>;
     const gpu::Device& device_;
     FamilyLayout layout_;
     std::map<Key, vk::raii::Pipeline> pipelines_;
+    gpu::Image depth_;  // of the last size drawn with other geometry
 };
 
 TargetSet make_targets(const gpu::Device& device, const FragmentHost& host, int width, int height);

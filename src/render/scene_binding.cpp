@@ -90,6 +90,7 @@ SceneBinding::SceneBinding(const gpu::Device& device, const FamilyLayout& layout
 void SceneBinding::update(const Stage& stage, int width, int height, Vec2f offset) {
     const auto& lights = stage.lighting.lights;
     light_count_ = static_cast<std::uint32_t>(lights.size());
+    periods_ = stage.base.periods;
     constexpr std::size_t first = glsl::first_lights_count;
     SceneBlock block{scene_uniforms(stage, width, height, offset), {}};
     for (std::size_t i = 0; i < std::min(first, lights.size()); ++i) block.first_lights[i] = light_uniforms(lights[i]);

@@ -17,6 +17,7 @@ public:
 
     vk::DescriptorSet set() const { return set_.handle; }
     std::uint32_t light_count() const { return light_count_; }
+    float periods() const { return periods_; }
 
 private:
     const gpu::Device* device_;
@@ -24,6 +25,7 @@ private:
     gpu::Buffer further_lights_;  // grows with the number of lights
     DescriptorSet set_;
     std::uint32_t light_count_ = 0;
+    float periods_ = 0;
 };
 
 }  // namespace relievo

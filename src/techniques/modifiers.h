@@ -13,10 +13,9 @@
 namespace relievo {
 
 // One value for each modifier. The defaults change nothing: the technique alone, with the hard shadow it casts itself.
-struct DrawOptions {
-    int shadow = glsl::shadow_hard;
+struct DrawOptions : glsl::DrawModes {
     glsl::DrawNumbers numbers{};
-    DrawOptions();  // the numbers at the table's defaults
+    DrawOptions();  // the table's defaults
 };
 
 struct ModifierValue {
@@ -31,6 +30,7 @@ struct Modifier {
     std::string_view help;
     std::span<const ModifierValue> values;  // a choice is an index into these
     int DrawOptions::*choice;
+    int usual;  // the value that changes nothing
     int truth;  // the value whose exact picture all are judged by; -1: each by its own
 
     const ModifierValue& value(const DrawOptions& options) const { return values[static_cast<std::size_t>(options.*choice)]; }
@@ -60,6 +60,10 @@ struct ModifierNumber {
 
 std::span<const Modifier> modifiers();
 std::span<const ModifierNumber> modifier_numbers();
+
+// Edge of the square of UV that holds the relief, where it does not repeat: the texture's own [0,1]^2, or the polygon's chart, which
+// is as many repeats wide as the base; 0 where it does.
+float chart_of(const DrawOptions& options, float periods);
 
 const Modifier* find_modifier(std::string_view id);
 

@@ -1,4 +1,6 @@
 // Camera, base and lights.
+#ifndef RELIEVO_HOSTS_SCENE
+#define RELIEVO_HOSTS_SCENE
 #include "../../shared/scene.h"
 
 layout(set = 1, binding = 0, std140) uniform Scene {
@@ -12,3 +14,5 @@ LightUniforms light_at(int i) {
     if (i >= first_lights_count) light = further_lights[i - first_lights_count];
     return light;
 }
+
+#endif
