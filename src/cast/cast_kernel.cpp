@@ -2,6 +2,7 @@
 // chosen at run time. docs/concepts/cpu_caster.md says how it works and why it cannot miss.
 #include "cast/cast_grid.h"
 
+#include <algorithm>
 #include <cstddef>
 
 // SSSE3 alone gains nothing over plain code here; fewer copies compile faster.
@@ -23,36 +24,68 @@ namespace HWY_NAMESPACE {
 
 static_assert(sizeof(CastHit) == 4 * sizeof(float) && offsetof(CastHit, height) == 8 && offsetof(CastHit, found) == 12);
 
-void cast_lanes(const CastGrid& grid, const CastRay* rays, CastHit* hits) {
+// The four floats of each hit side by side; `flag` holds the bits of `found` and its padding.
+HWY_INLINE void store_hits(F u, F v, F height, F flag, CastHit* hits) {
+#if HWY_TARGET == HWY_SCALAR
+    hits[0] = {.uv = {hn::GetLane(u), hn::GetLane(v)},
+               .height = hn::GetLane(height),
+               .found = hn::GetLane(hn::BitCast(Ints(), flag)) != 0};
+#else
+    hn::StoreInterleaved4(u, v, height, flag, Floats(), &hits->uv.x);
+#endif
+}
+
+// Bundles in flight: what comes before and after the walks does not branch, so that the processor works at several at once. More
+// than these gained nothing.
+constexpr std::size_t in_flight = 4;
+
+void cast_lanes(const CastGrid& grid, const CastRay* rays, std::size_t vectors, CastHit* hits) {
     const Floats d;
     const Ints di;
-    Lanes lanes;
-    const RayVectors ray = load_rays(rays);
-    set_up(grid, ray, lanes);
-    Bundle bundle;
-    const LaneHits hit = make_bundle(grid, lanes, bundle) ? walk_together(grid, lanes, bundle) : walk_alone(grid, lanes);
-    const F z = hn::IfThenElse(hit.found, hn::Sub(ray.z_start, hit.descent), ray.z_end);
-    const F way = hn::Sub(z, ray.zero_level);
-    // A valid ray that reaches the floor has met it: every field is at least 0.
-    const FMask valid = hn::RebindMask(d, hn::Ne(hn::Load(di, lanes.valid), hn::Zero(di)));
-    const FMask found = hn::Or(hit.found, hn::And(valid, hn::Le(ray.z_end, hn::Zero(d))));
-    const I flag = hn::IfThenElseZero(hn::RebindMask(di, found), hn::Set(di, 1));
-    alignas(64) float u[lane_count], v[lane_count], height[lane_count];
-    alignas(64) std::int32_t flags[lane_count];
-    hn::Store(hn::MulAdd(way, ray.du, ray.u), d, u), hn::Store(hn::MulAdd(way, ray.dv, ray.v), d, v);
-    hn::Store(z, d, height), hn::Store(flag, di, flags);
-    for (std::size_t k = 0; k < lane_count; ++k) hits[k] = {.uv = {u[k], v[k]}, .height = height[k], .found = flags[k] != 0};
+    RayVectors ray[in_flight];
+    Lanes lanes[in_flight];
+    Bundle bundle[in_flight];
+    SliceGroup group[in_flight];
+    LaneHits hit[in_flight];
+    bool together[in_flight];
+    for (std::size_t k = 0; k < vectors; ++k) {
+        ray[k] = load_rays(rays + k * lane_count);
+        set_up(grid, ray[k], lanes[k]);
+    }
+    for (std::size_t k = 0; k < vectors; ++k) together[k] = make_bundle(grid, lanes[k], bundle[k]);
+    for (std::size_t k = 0; k < vectors; ++k)
+        if (together[k]) test_slices(grid, bundle[k], 0, group[k]);
+    for (std::size_t k = 0; k < vectors; ++k)
+        hit[k] = together[k] ? walk_together(grid, lanes[k], bundle[k], group[k]) : walk_alone(grid, lanes[k]);
+    for (std::size_t k = 0; k < vectors; ++k) {
+        const auto& [begin, gap, slope, bend, met] = hit[k];
+        const F square = hn::Sub(hn::Mul(slope, slope), hn::Mul(hn::Mul(hn::Set(d, 4.0f), bend), gap));
+        const auto [first, second] = roots_of(gap, slope, bend, square);
+        const F zero = hn::Zero(d), far = hn::Set(d, never);
+        // The cell is known to hold a root: the first from its entry on.
+        const F root = hn::Min(hn::IfThenElse(hn::Ge(first, zero), first, far), hn::IfThenElse(hn::Ge(second, zero), second, far));
+        const F down = hn::Min(hn::Add(begin, hn::IfThenElse(hn::Ge(gap, zero), zero, root)), hn::Load(d, lanes[k].descent_end));
+        const F z = hn::IfThenElse(met, hn::Sub(ray[k].z_start, down), ray[k].z_end);
+        const F way = hn::Sub(z, ray[k].zero_level);
+        // A valid ray that reaches the floor has met it: every field is at least 0.
+        const FMask valid = hn::RebindMask(d, hn::Ne(hn::Load(di, lanes[k].valid), hn::Zero(di)));
+        const FMask found = hn::Or(met, hn::And(valid, hn::Le(ray[k].z_end, zero)));
+        const F flag = hn::BitCast(d, hn::IfThenElseZero(hn::RebindMask(di, found), hn::Set(di, 1)));
+        store_hits(hn::MulAdd(way, ray[k].du, ray[k].u), hn::MulAdd(way, ray[k].dv, ray[k].v), z, flag, hits + k * lane_count);
+    }
 }
 
 void cast(const CastGrid& grid, const CastRay* rays, std::size_t count, CastHit* hits) {
-    std::size_t k = 0;
-    for (; k + lane_count <= count; k += lane_count) cast_lanes(grid, rays + k, hits + k);
-    if (k == count) return;
+    const std::size_t vectors = count / lane_count;
+    for (std::size_t k = 0; k < vectors; k += in_flight)
+        cast_lanes(grid, rays + k * lane_count, std::min(in_flight, vectors - k), hits + k * lane_count);
+    const std::size_t done = vectors * lane_count;
+    if (done == count) return;
     CastRay last_rays[lane_count];
     CastHit last_hits[lane_count];
-    for (std::size_t lane = 0; lane < lane_count; ++lane) last_rays[lane] = rays[k + lane < count ? k + lane : count - 1];
-    cast_lanes(grid, last_rays, last_hits);
-    for (std::size_t lane = 0; k + lane < count; ++lane) hits[k + lane] = last_hits[lane];
+    for (std::size_t lane = 0; lane < lane_count; ++lane) last_rays[lane] = rays[std::min(done + lane, count - 1)];
+    cast_lanes(grid, last_rays, 1, last_hits);
+    std::copy(last_hits, last_hits + (count - done), hits + done);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -44,9 +44,10 @@ struct alignas(64) Lanes {
     std::int32_t valid[lane_count];
 };
 
-// How far each lane comes down before it meets the field.
+// What a walk found: the descent at which each lane enters the cell of its hit, or at which it ended, and the gap (field minus ray)
+// from there on, gap + s (slope + s bend), whose first root is the hit; no lower than 0 where the entry is.
 struct LaneHits {
-    F descent;
+    F begin, gap, slope, bend;
     FMask found;
 };
 

@@ -144,7 +144,7 @@ HWY_INLINE LaneHits walk_alone(const CastGrid& grid, const Lanes& lanes) {
         walking = hn::AndNot(hn::And(moves, hn::Ge(descent, descent_end)), walking);
         if (hn::AllFalse(d, walking)) break;
     }
-    return {result, found};
+    return {result, zero, one, zero, found};
 }
 
 }  // namespace HWY_NAMESPACE
