@@ -16,7 +16,7 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line) {
     struct Options {
         CompareSettings settings;
         std::vector<std::string> materials, techniques, views;
-        std::string size = "368x207";
+        std::string size = "352x198";
         int texels = 512;
         bool no_cache = false, sweep = false, no_sweep = false, quiet = false, json = false;
     };

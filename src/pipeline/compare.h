@@ -23,8 +23,8 @@ struct CompareSettings {
     std::string out;                         // folder for the page, results and pictures; made if missing
     std::string device;                      // as GpuRenderer takes it
     std::string command;                     // for the manifest
-    int width = 368;
-    int height = 207;
+    int width = 352;
+    int height = 198;
     int runs = 11;                           // timed runs of each technique, interleaved
     int samples = 5;                         // samples per pixel of every picture and of the reference: 1, 5, 9 or 25
     DrawOptions options{};
