@@ -1,5 +1,7 @@
 // Edge anti-aliasing inside the search: a pixel whose ray just passed an edge, or just met one, shows something of both sides.
-// Mile 2008, 3.6.7, has two forms; both look along one ray only, so edges that run up the screen stay as they are.
+// Mile 2008, 3.6.7, has two forms; both look along one ray only, so edges that run up the screen stay as they are. As published both
+// know heights and no pixels, and from near they mix in edges that are many pixels away: worse than nothing. Here neither reaches
+// farther than the pixel does.
 #ifndef RELIEVO_SHADING_EDGE_BLEND
 #define RELIEVO_SHADING_EDGE_BLEND
 
@@ -12,6 +14,10 @@ struct EdgeNeighbour {
     float share;
 };
 
+// A pixel as a difference in height. A ray moved by the pixel's footprint in UV changes its gap to the field by footprint /
+// |uv_per_height| heights, so a gap measured in this unit is the edge's distance from the pixel's middle.
+float pixel_in_heights(SurfaceRay ray) { return exp2(ray.lod) / max(length(ray.uv_per_height), 1e-6f); }
+
 // What the ray would meet if it went on from below height z.
 SurfaceHit hit_beyond(SurfaceRay ray, float z, MarchParams params) {
     SurfaceRay rest = ray;
@@ -19,13 +25,14 @@ SurfaceHit hit_beyond(SurfaceRay ray, float z, MarchParams params) {
     return technique(rest, params);
 }
 
-// First form: one step behind the hit the ray is above the field again, so it met an edge; what comes behind gets half the pixel. A
-// thin ridge is an edge all over.
+// First form: one step behind the hit the ray is above the field again, so it met an edge; what comes behind gets half the pixel. That
+// is right for an edge in the pixel's middle, and better than nothing where it lies within a quarter of a pixel: no step may be
+// longer. A thin ridge is an edge all over.
 EdgeNeighbour edge_behind(SurfaceRay ray, SurfaceHit hit, MarchParams params, int samples) {
     EdgeNeighbour other;
     other.hit = hit;
     other.share = 0.0f;
-    float next = hit.height - (ray.z_start - ray.z_end) / float(samples);
+    float next = hit.height - min((ray.z_start - ray.z_end) / float(samples), 0.25f * pixel_in_heights(ray));
     if (next > ray.z_end) {
         if (height_at(uv_at(ray, next)) < next) {
             other.hit = hit_beyond(ray, next, params);
@@ -75,27 +82,28 @@ SurfaceHit below_ray(SurfaceRay ray, float z) {
     return hit;
 }
 
-// Second form: an edge passed within `width` (in heights) gets the more of the pixel the nearer the ray came.
+// Second form: an edge passed within `width` (in heights) gets the more of the pixel the nearer the ray came; half of it when the ray
+// touched, as an edge through the pixel's middle has (published: all of it), and nothing beyond half a pixel.
 EdgeNeighbour edge_passed(SurfaceRay ray, SurfaceHit hit, float width, int samples) {
     EdgeNeighbour other;
     other.hit = hit;
     other.share = 0.0f;
     vec2 pass = nearest_pass(ray, hit.height, samples);
-    if (pass.y < width) {
+    float reach = min(width, 0.5f * pixel_in_heights(ray));
+    if (pass.y < reach) {
         other.hit = below_ray(ray, pass.x);
-        other.share = 1.0f - pass.y / width;
+        other.share = 0.5f - 0.5f * pass.y / reach;
     }
     return other;
 }
 
-// Ours: both sides of the edge, by the pixel's own size. A ray moved by a pixel's footprint in UV changes its gap to the field by
-// footprint / |uv_per_height| heights, so a gap measured in that unit is the edge's distance from the pixel's middle, and an edge nearer
-// than half a pixel has the rest of that half. The same behind the hit, where the deepest the ray dips before it comes out again counts.
+// Ours: both sides of the edge, by the pixel's own size: an edge nearer than half a pixel has the rest of that half. The same behind the
+// hit, where the deepest the ray dips before it comes out again counts.
 EdgeNeighbour edge_covered(SurfaceRay ray, SurfaceHit hit, MarchParams params, int samples) {
     EdgeNeighbour other;
     other.hit = hit;
     other.share = 0.0f;
-    float pixel = exp2(ray.lod) / max(length(ray.uv_per_height), 1e-6f);  // in heights
+    float pixel = pixel_in_heights(ray);
     vec2 pass = nearest_pass(ray, hit.height, samples);
     if (pass.y < 0.5f * pixel) {
         other.hit = below_ray(ray, pass.x);

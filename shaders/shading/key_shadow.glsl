@@ -19,13 +19,13 @@ float key_shadow(SurfaceRay ray, SurfaceHit hit, vec3 to_light, float bias, Marc
     } else if (mode == shadow_area) {
         visible = area_shadow(ray, hit, to_light, bias, params, chart, numbers.light_radius, numbers.shadow_samples);
     } else if (mode == shadow_horizon) {
-        visible = horizon_shadow(ray, hit, to_light, numbers.light_radius);
+        visible = horizon_shadow(ray, hit, to_light, numbers.light_radius, chart);
     } else if (mode != shadow_none && to_light.z <= 0.0f) {
         visible = 0.0f;
     } else if (mode == shadow_soft) {
         visible = penetration_shadow(over_chart(light_ray(ray, hit, to_light, 0.0f), chart), numbers.shadow_depth, numbers.shadow_samples);
     } else if (mode == shadow_tatarchuk) {
-        visible = weighted_shadow(light_ray(ray, hit, to_light, 0.0f), hit, numbers.shadow_softening);
+        visible = weighted_shadow(light_ray(ray, hit, to_light, 0.0f), hit, numbers.shadow_softening, chart);
     }
     return visible;
 }

@@ -13,13 +13,16 @@ vec2 relaxed_cone_at(vec2 uv);          // the same of the relaxed cones
 vec2 conservative_cone(ivec2 texel);    // of one texel, any integers: a cone is safe at its own apex, blended ones need not be
 vec2 relaxed_cone(ivec2 texel);
 vec2 robust_cone(ivec2 texel);          // height of the texel, and a ratio for any point of its square
-float horizon_at(vec2 uv, int direction);  // code of the horizon's elevation, bilinear; direction in [0,16), as in horizon_shadow
+float horizon_at(vec2 uv, int direction);  // code of the horizon's elevation, bilinear; direction as in shading/horizon_shadow
 float distance_at(vec3 uvz);            // distance to the relief in heights, trilinear, rounded down; z in [0,1] (maps/distance_map.h)
 int max_levels();                       // levels of the pyramid of maxima; no fetch
 float max_at(ivec2 node, int level);    // largest corner height in a node; node inside one period
 vec4 cell_cone(ivec2 cell);             // largest corner, cone ratio, near roof and far roof of a cell, any integers (maps/cell_cone.h)
 
 #endif
+
+// Directions of the horizon map.
+const int horizon_directions = 32;
 
 // How far the roofs of a cell cone reach, in cells along either axis.
 const int near_roof_reach = 4;

@@ -25,7 +25,7 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line) {
     auto* verb = app.add_subcommand("compare", "Scores techniques on materials and views against exact ground truth and writes a report");
     verb->add_option("--material", o->materials, "folder with maps, or a procedural material's id; may be repeated (default: the procedural set)");
     verb->add_option("--technique", o->techniques, "ids, comma-separated or repeated (default: all)");
-    verb->add_option("--view", o->views, "grazing, middle, steep or degrees above the plane; may be repeated (default: the three)");
+    verb->add_option("--view", o->views, "grazing, middle, steep or degrees above the plane, and @2 for twice as far away; may be repeated (default: the three)");
     verb->add_option("--size", o->size, "picture size, WIDTHxHEIGHT")->capture_default_str();
     verb->add_option("--runs", o->settings.runs, "timed runs of each technique, interleaved")->check(CLI::Range(1, 10000))->capture_default_str();
     verb->add_option("--samples", o->settings.samples, "samples per pixel of pictures and reference: 1, 5, 9 or 25")

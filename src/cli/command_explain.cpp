@@ -89,7 +89,7 @@ void add_explain_command(CLI::App& app) {
     add_material_options(*verb, o->settings.material);
     verb->add_option("--technique", o->techniques, "ids, comma-separated or repeated (relievo list techniques)")->required();
     verb->add_option("--set", o->set, "knob=value, for every technique that has the knob; may be repeated (relievo list knobs)");
-    verb->add_option("--view", o->view, "grazing, middle, steep or degrees above the plane")->capture_default_str();
+    verb->add_option("--view", o->view, "grazing, middle, steep or degrees above the plane, and @2 for twice as far away")->capture_default_str();
     verb->add_option("--size", o->size, "size of the picture that the pixel is of, WIDTHxHEIGHT")->capture_default_str();
     auto* pixel = verb->add_option("--pixel", o->pixel, "X,Y from the top left corner (default: the middle)");
     auto* uv = verb->add_option("--uv", o->uv, "U,V where the ray meets the polygon, instead of a pixel")->excludes(pixel);

@@ -27,7 +27,7 @@ void add_render_command(CLI::App& app) {
     add_material_options(*verb, o->settings.material);
     verb->add_option("--technique", o->technique, "id (relievo list techniques), or 'reference' for the exact picture")->required();
     verb->add_option("--set", o->set, "knob=value; may be repeated (relievo list knobs)");
-    verb->add_option("--view", o->view, "grazing, middle, steep or degrees above the plane")->capture_default_str();
+    verb->add_option("--view", o->view, "grazing, middle, steep or degrees above the plane, and @2 for twice as far away")->capture_default_str();
     verb->add_option("--size", o->size, "picture size, WIDTHxHEIGHT")->capture_default_str();
     verb->add_option("--samples", o->samples, "samples per pixel: 1, 5, 9 or 25")->check(CLI::IsMember({1, 5, 9, 25}))->capture_default_str();
     add_modifier_options(*verb, o->settings.picture.options);

@@ -62,7 +62,7 @@ void add_vary_command(CLI::App& app) {
     verb->add_option("modifier", o->modifier, "id (relievo list modifiers)")->required();
     verb->add_option("--material", o->materials, "folder with maps, or a procedural material's id; may be repeated (default: the procedural set)");
     verb->add_option("--technique", o->technique, "id (default: the exact one, so that only the modifier errs)");
-    verb->add_option("--view", o->views, "grazing, middle, steep or degrees above the plane; may be repeated (default: the three)");
+    verb->add_option("--view", o->views, "grazing, middle, steep or degrees above the plane, and @2 for twice as far away; may be repeated (default: the three)");
     verb->add_option("--size", o->size, "picture size, WIDTHxHEIGHT")->capture_default_str();
     verb->add_option("--runs", o->settings.runs, "timed runs of each value, interleaved")->check(CLI::Range(1, 10000))->capture_default_str();
     verb->add_option("--samples", o->settings.samples, "samples per pixel of the pictures: 1, 5, 9 or 25")

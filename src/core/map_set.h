@@ -35,6 +35,10 @@ struct MaxPyramid {
 // Slices of the 3D distance map over the slab, the first at height 0 and the last at height 1.
 inline constexpr int distance_slices = 64;
 
+// Directions of the horizon map. A light is looked up between two of them, and what is narrower than they are apart blurs its shadow:
+// with 16 that was the largest error on rounded relief, with 32 it is less than half of it (docs/concepts/modifiers.md).
+inline constexpr int horizon_directions = 32;
+
 // How far the roofs of a cell cone map reach, in cells along either axis.
 inline constexpr int near_roof_reach = 4;
 inline constexpr int far_roof_reach = 32;
@@ -48,7 +52,7 @@ struct MapSet {
     ImageF conservative_cone;     // like cone, of maps/conservative_cone.h
     ImageF relaxed_cone;          // like cone, of maps/relaxed_cone.h
     ImageF robust_cone;           // like cone, of maps/robust_cone.h
-    ImageF horizon;               // 16 channels: the horizon's elevation by direction, coded (maps/horizon_map.h); empty until baked
+    ImageF horizon;               // 32 channels: the horizon's elevation by direction, coded (maps/horizon_map.h); empty until baked
     ImageF distance;              // 1 channel, distance_slices slices stacked upward: maps/distance_map.h; empty until baked
     ImageF cell_cone;             // 4 channels a cell: largest corner, cone ratio, near roof, far roof; empty until baked
 };

@@ -21,7 +21,7 @@ struct Piece {
     double twisted;
 };
 
-// A direction and how one of its steps runs over the cells; a primitive step: (2,2) and (2,0) go through (1,1) and (1,0).
+// A direction and how one of its steps runs over the cells; a primitive step: (4,4) and (4,2) go through (1,1) and (2,1).
 struct Line {
     Vec2i step;
     double length_uv;
@@ -115,9 +115,10 @@ void sweep(const std::vector<Point>& points, double steps, double to_slope, std:
 
 Vec2i horizon_step(int direction) {
     assert(direction >= 0 && direction < horizon_directions);
-    constexpr Vec2i first[] = {{2, 0}, {2, 1}, {2, 2}, {1, 2}};
-    Vec2i step = first[direction % 4];
-    for (int quarter = direction / 4; quarter > 0; --quarter) step = {-step.y, step.x};
+    constexpr int quarter_directions = horizon_directions / 4;
+    constexpr Vec2i first[quarter_directions] = {{4, 0}, {4, 1}, {4, 2}, {4, 3}, {4, 4}, {3, 4}, {2, 4}, {1, 4}};
+    Vec2i step = first[direction % quarter_directions];
+    for (int quarter = direction / quarter_directions; quarter > 0; --quarter) step = {-step.y, step.x};
     return step;
 }
 

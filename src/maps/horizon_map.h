@@ -1,8 +1,9 @@
-// Max's horizon map: for each texel and 16 directions of the plane, the elevation under which the repeated surface hides the sky
+// Max's horizon map: for each texel and 32 directions of the plane, the elevation under which the repeated surface hides the sky
 // (Max 1988, Horizon Mapping: Shadows for Bump-Mapped Surfaces).
 #pragma once
 
 #include "core/height_field.h"
+#include "core/map_set.h"
 #include "core/progress.h"
 #include "core/vec.h"
 
@@ -10,9 +11,7 @@
 
 namespace relievo {
 
-inline constexpr int horizon_directions = 16;
-
-// Direction k as a step of the grid of texels, counter-clockwise from +u: (2,0), (2,1), (2,2), (1,2), (0,2) ... Steps on the grid
+// Direction k as a step of the grid of texels, counter-clockwise from +u: (4,0), (4,1) ... (4,4), (3,4) ... (0,4) ... Steps on the grid
 // instead of even angles, because lines along them pass from texel to texel and cross cell walls at the same few places: one
 // sweep along a line then serves every texel on it.
 Vec2i horizon_step(int direction);
@@ -22,7 +21,7 @@ Vec2i horizon_step(int direction);
 inline float horizon_code(double slope) { return std::atan(static_cast<float>(0.1 * slope)) * (2 / std::numbers::pi_v<float>); }
 inline double horizon_slope(double code) { return std::tan(code * (std::numbers::pi / 2)) / 0.1; }
 
-// 16 channels. Conservative: at texel centres never below the steepest slope to any point of the bilinear surface in that direction,
+// A channel for each direction. Conservative: at texel centres never below the steepest slope to any point of the bilinear surface in that direction,
 // and above it only where the surface bulges between the points that stand for it, by at most a 64th of the cell's twist
 // |h00 - h10 - h01 + h11| in height (tests/maps/horizon_map_test.cpp measures both). Each line is swept once round, with the upper
 // hull of what lies ahead (Timonen and Westerholm 2010, Scalable Height Field Self-Shadowing), so the time does

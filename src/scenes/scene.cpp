@@ -33,11 +33,12 @@ Stage stage_for(const View& view) {
     const double a = radians(view.azimuth_deg);
     // Near enough that the square fills the frame, about two and a half repeats wide; farther when seen from above, where a repeat
     // is not foreshortened. At grazing views the square's far edge stays in sight: there a flat base betrays itself.
-    const double distance = 1.75 + 0.75 * std::sin(e);
+    const double distance = (1.75 + 0.75 * std::sin(e)) * view.distance;
     stage.camera.eye = Vec3d{std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)} * distance;
     // Aimed a little short of the centre, so that the horizon stays in the upper quarter.
-    stage.camera.target = Vec3d{std::cos(a), std::sin(a), 0} * (0.25 * std::cos(e));
+    stage.camera.target = Vec3d{std::cos(a), std::sin(a), 0} * (0.25 * std::cos(e) * view.distance);
     stage.camera.fov_y_rad = radians(32);
+    stage.base.periods *= static_cast<float>(view.distance);
 
     // 32 degrees above the surface: low enough that relief reads, high enough that shadows do not swallow the joints.
     const double key_e = radians(32);

@@ -168,6 +168,7 @@ vec4 cell_cone(ivec2 cell) {
 }
 
 #include "surface/maps.glsl"  // for its constants: the declarations in it are not for C++
+static_assert(horizon_directions == relievo::horizon_directions, "the shadow looks up what the map was baked for");
 static_assert(near_roof_reach == relievo::near_roof_reach && far_roof_reach == relievo::far_roof_reach, "the walk goes as far as the map was baked for");
 
 }  // namespace relievo::glsl

@@ -20,14 +20,14 @@ constexpr ModifierValue shadow_values[] = {
     {"hard", "the technique asked again from the light, a point", {"Policarpo, Oliveira, Comba", 2005, "Real-Time Relief Mapping on Arbitrary Polygonal Surfaces"}},
     {"soft", "by how deep the light ray dips below the field", mile},
     {"tatarchuk", "by eight heights along the light ray, the nearer the weightier", tatarchuk},
-    {"horizon", "by a map of the horizon in 16 directions", {"Max", 1988, "Horizon Mapping: Shadows for Bump-Mapped Surfaces"}},
+    {"horizon", "by a map of the horizon in 32 directions, and five heights close by", {"Max", 1988, "Horizon Mapping: Shadows for Bump-Mapped Surfaces"}},
     {"area", "the technique asked from many points of the light's disc"},
 };
 
 constexpr ModifierValue edge_values[] = {
     {"none", "a pixel shows the one point that its ray meets"},
     {"behind", "half of a pixel that met an edge is what comes behind it", mile},
-    {"passed", "an edge that the ray passed closely is mixed in, by the gap", mile},
+    {"passed", "an edge that the ray passed within half a pixel is mixed in, by the gap", mile},
     {"covered", "both sides of an edge, by how much of the pixel they cover"},
 };
 constexpr ModifierValue steps_values[] = {
@@ -216,7 +216,7 @@ constexpr ModifierNumber number_table[] = {
         .id = "edge_width",
         .title = "Edge width",
         .unit = "height",
-        .help = "gap between ray and field at which an edge that was passed leaves the pixel",
+        .help = "gap between ray and field at which an edge that was passed leaves the pixel, if half a pixel is not nearer",
         .min = 0.001f,
         .max = 1,
         .step = 0.001f,

@@ -129,5 +129,42 @@ TEST_F(ShadowModes, penumbraGrowsWithTheLight) {
     }
 }
 
+// Beyond the border nothing casts a shadow, whichever way the shadow is found: where the relief without end would shade a point and the
+// one that ends does not, it is lit.
+TEST_F(ShadowModes, endWithTheRelief) {
+    constexpr int across = 160;
+    constexpr int down = 90;
+    const Technique& exact = *find_technique("max_mip_tracing");
+    Stage stage = stage_at(25);
+    stage.lighting.lights.resize(1);
+    stage.lighting.lights[0].position = normalize(Vec3f{0.3f, 0.9f, 0.12f});  // from beyond the far edge, and low
+    const RayField rays = renderer->rays(stage, *material, across, down, {0, 0});
+    const auto truth_of = [&](int border) {
+        DrawOptions options = with(glsl::shadow_area);
+        options.border = border;
+        return reference_picture(stage, maps, {&rays, 1}, {.height_scale = height_scale, .zero_level = zero_level, .options = options});
+    };
+    const Frame right = truth_of(glsl::border_chart);
+    const Frame endless = truth_of(glsl::border_repeat);
+    for (const int mode : {glsl::shadow_soft, glsl::shadow_tatarchuk, glsl::shadow_horizon}) {
+        DrawOptions options = with(mode);
+        options.border = glsl::border_chart;
+        const Frame f = renderer->draw(stage, *material, exact, default_params(exact), {.width = across, .height = down, .options = options});
+        int lit_by_it = 0;
+        double light = 0;
+        for (std::size_t i = 0; i < f.shadow.texels.size(); ++i) {
+            if (f.coverage.texels[i] != 1 || right.coverage.texels[i] != 1 || endless.coverage.texels[i] != 1) continue;
+            if (right.shadow.texels[i] < endless.shadow.texels[i] + 0.5f) continue;
+            ++lit_by_it;
+            light += f.shadow.texels[i];
+        }
+        EXPECT_GT(lit_by_it, 20);
+        EXPECT_GT(light, 0.9 * lit_by_it) << find_modifier("shadow")->values[static_cast<std::size_t>(mode)].id;
+        if (mode == glsl::shadow_horizon) {
+            EXPECT_LT(mean_error(f, right), 0.05);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace relievo

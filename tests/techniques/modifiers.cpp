@@ -180,9 +180,12 @@ TEST_F(Edges, coveredSharesThePixelByTheGap) {
 TEST_F(Edges, passedSharesThePixelByTheWidth) {
     const SurfaceRay ray = passing(0.02f);
     const EdgeNeighbour other = edge_passed(ray, technique(ray, params), 0.05f, 64);
-    EXPECT_NEAR(other.share, 1 - 0.02f / 0.05f, 0.1f);
+    EXPECT_NEAR(other.share, 0.5f - 0.5f * 0.02f / 0.05f, 0.05f);
     EXPECT_NEAR(other.hit.height, 0.5f, 0.01f);
     EXPECT_EQ(edge_passed(passing(0.1f), technique(passing(0.1f), params), 0.05f, 64).share, 0.0f) << "too far above";
+    SurfaceRay near = ray;  // a pixel is 0.03 heights
+    near.lod = std::log2(0.03f * ray.uv_per_height.x);
+    EXPECT_EQ(edge_passed(near, technique(near, params), 0.05f, 64).share, 0.0f) << "more than half a pixel away";
 }
 
 TEST_F(Edges, behindHalvesThePixelThatMetAThinEdge) {
@@ -190,6 +193,9 @@ TEST_F(Edges, behindHalvesThePixelThatMetAThinEdge) {
     const EdgeNeighbour other = edge_behind(met, technique(met, params), params, 48);
     EXPECT_EQ(other.share, 0.5f);
     EXPECT_LT(other.hit.height, 0.4f);
+    SurfaceRay near = met;  // a pixel is 0.004 heights: the edge is more than one away
+    near.lod = std::log2(0.004f * met.uv_per_height.x);
+    EXPECT_EQ(edge_behind(near, technique(near, params), params, 48).share, 0.0f);
     const SurfaceRay deep = passing(-0.3f);
     EXPECT_EQ(edge_behind(deep, technique(deep, params), params, 48).share, 0.0f);
 }
