@@ -147,6 +147,14 @@ FileBytes FileBytes::inflate(std::string_view packed, const std::string& file, s
 FileBytes::FileBytes(FileBytes&& other) noexcept
     : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)), mapped_(other.mapped_) {}
 
+void FileBytes::forget(std::string_view part) const {
+    if (!mapped_) return;
+    static const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    const auto begin = static_cast<std::size_t>(part.data() - data_);
+    const std::size_t first = (begin + page - 1) / page * page, last = (begin + part.size()) / page * page;
+    if (first < last) ::madvise(data_ + first, last - first, MADV_DONTNEED);
+}
+
 FileBytes::~FileBytes() {
     if (!data_) return;
     if (mapped_)

@@ -28,6 +28,10 @@ public:
     std::string_view view() const { return {data_, size_}; }
     bool inflated() const { return !mapped_; }
 
+    // Gives back the memory of a part of view() that will hardly be read again, as far as it is whole pages of a mapped file. Its bytes
+    // stay readable: they come from the file again. From any thread.
+    void forget(std::string_view part) const;
+
 private:
     FileBytes() = default;
 

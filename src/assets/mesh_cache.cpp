@@ -93,13 +93,16 @@ std::uint64_t checksum_of_blocks(std::string_view bytes, std::string_view header
 }
 
 template <class T>
-void copy_out(std::string_view bytes, std::uint64_t at, std::uint64_t count, std::vector<T>& values, int threads) {
+void copy_out(std::string_view bytes, std::uint64_t at, std::uint64_t count, std::vector<T>& values) {
+    const char* const from = bytes.data() + at;
+    if (reinterpret_cast<std::uintptr_t>(from) % alignof(T) == 0) {
+        // In one go: filling a vector with zeros first would take as long again.
+        const T* const first = reinterpret_cast<const T*>(from);
+        values.assign(first, first + count);
+        return;
+    }
     values.resize(static_cast<std::size_t>(count));
-    constexpr std::size_t block = 1 << 16;
-    parallel_for(static_cast<int>((values.size() + block - 1) / block), 1, threads, [&](int first, int last) {
-        const std::size_t begin = static_cast<std::size_t>(first) * block, end = std::min(values.size(), static_cast<std::size_t>(last) * block);
-        std::memcpy(values.data() + begin, bytes.data() + at + begin * sizeof(T), (end - begin) * sizeof(T));
-    });
+    std::memcpy(values.data(), from, values.size() * sizeof(T));
 }
 
 template <class T>
@@ -163,13 +166,24 @@ Mesh parse_mesh_cache(std::string_view bytes, const std::string& file, int threa
         throw damaged("byte 48: the checksum does not fit the content");
 
     Mesh mesh;
-    copy_out(bytes, layout.positions, header.vertices, mesh.positions, threads);
-    if (header.attributes & with_normals) copy_out(bytes, layout.normals, header.vertices, mesh.normals, threads);
-    if (header.attributes & with_uvs) copy_out(bytes, layout.uvs, header.vertices, mesh.uvs, threads);
-    if (header.attributes & with_colours) copy_out(bytes, layout.colours, header.vertices, mesh.colours, threads);
-    copy_out(bytes, layout.indices, header.indices, mesh.indices, threads);
-    if (!mesh.indices.empty() && *std::max_element(mesh.indices.begin(), mesh.indices.end()) >= mesh.positions.size())
-        throw damaged("an index is out of range");
+    // The indices are half of a scan: one thread's work, while another copies the vertices.
+    bool in_range = true;
+    parallel_for(2, 1, threads, [&](int begin, int end) {
+        for (int part = begin; part < end; ++part) {
+            if (part == 0) {
+                copy_out(bytes, layout.indices, header.indices, mesh.indices);
+                std::uint32_t highest = 0;
+                for (const std::uint32_t i : mesh.indices) highest = std::max(highest, i);
+                in_range = mesh.indices.empty() || highest < header.vertices;
+                continue;
+            }
+            copy_out(bytes, layout.positions, header.vertices, mesh.positions);
+            if (header.attributes & with_normals) copy_out(bytes, layout.normals, header.vertices, mesh.normals);
+            if (header.attributes & with_uvs) copy_out(bytes, layout.uvs, header.vertices, mesh.uvs);
+            if (header.attributes & with_colours) copy_out(bytes, layout.colours, header.vertices, mesh.colours);
+        }
+    });
+    if (!in_range) throw damaged("an index is out of range");
     mesh.name = bytes.substr(static_cast<std::size_t>(layout.name), header.name_bytes);
     for (std::string_view notes = bytes.substr(static_cast<std::size_t>(layout.notes)); !notes.empty();) {
         const std::size_t end = std::min(notes.find('\n'), notes.size() - 1);

@@ -44,13 +44,13 @@ std::string read_beside(const std::filesystem::path& folder, const std::string& 
     }
 }
 
-Mesh parse_plain(std::string_view bytes, const std::string& ending, const std::string& file, const std::filesystem::path& folder, int threads) {
+Mesh parse_plain(std::string_view bytes, const std::string& ending, const std::string& file, const std::filesystem::path& folder, int threads, const Forget& forget = {}) {
     const auto read_uri = [&](const std::string& uri) { return read_beside(folder, uri, file); };
     if (bytes.empty()) throw Error("read", file, "the file is empty");
     if (is_mesh_cache(bytes)) return parse_mesh_cache(bytes, file, threads);
     if (bytes.starts_with("ply") && bytes.size() > 3 && (bytes[3] == '\n' || bytes[3] == '\r' || bytes[3] == ' ')) return parse_ply(bytes, file, threads);
     if (bytes.starts_with("glTF")) return parse_gltf(bytes, file, read_uri, threads);
-    if (ending == "obj") return parse_obj(bytes, file, threads);
+    if (ending == "obj") return parse_obj(bytes, file, threads, forget);
     if (ending == "off") return parse_off(bytes, file, threads);
     if (ending == "stl") return parse_stl(bytes, file, threads);
     if (ending == "gltf" || ending == "glb") return parse_gltf(bytes, file, read_uri, threads);
@@ -72,23 +72,25 @@ Mesh load_mesh(const std::filesystem::path& file, int threads) {
     const std::string ending = ending_of(file, compressed);
     const FileBytes bytes = FileBytes::open(file);
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-    Mesh mesh = parse_plain(bytes.view(), ending, file.string(), folder, threads);
+    Mesh mesh = parse_plain(bytes.view(), ending, file.string(), folder, threads, [&](std::string_view part) { bytes.forget(part); });
     if (mesh.name.empty()) mesh.name = name_of(file);
     return mesh;
 }
 
-void save_mesh(const std::filesystem::path& file, const Mesh& mesh, int threads) {
+void save_mesh(const std::filesystem::path& file, const Mesh& mesh, int threads, const std::vector<Vec4f>& tangents) {
     bool compressed = false;
     const std::string ending = ending_of(file, compressed);
+    if (!tangents.empty() && ending != "glb" && ending != "gltf")
+        throw Error("write", file.string(), "its format has no place for tangents", "write a .glb or .gltf file");
     std::string bytes;
     if (ending == "obj")
         bytes = write_obj(mesh, threads);
     else if (ending == "ply")
         bytes = write_ply(mesh);
     else if (ending == "glb")
-        bytes = write_glb(mesh);
+        bytes = write_glb(mesh, tangents);
     else if (ending == "gltf")
-        bytes = write_gltf(mesh);
+        bytes = write_gltf(mesh, tangents);
     else if (ending == "rmesh")
         bytes = write_mesh_cache(mesh, threads);
     else

@@ -16,8 +16,9 @@ namespace relievo {
 Mesh load_mesh(const std::filesystem::path& file, int threads = 0);
 
 // Writes OBJ, PLY (binary), glTF (one file), GLB or the cache as the ending says, compressed if it says .gz; the file appears whole
-// or not at all. The mesh keeps the promises of core/mesh.h. Notes are kept by the cache alone. Throws Error.
-void save_mesh(const std::filesystem::path& file, const Mesh& mesh, int threads = 0);
+// or not at all. The mesh keeps the promises of core/mesh.h. Notes are kept by the cache alone. `tangents`, as in mesh/tangents.h, are
+// one per vertex or none; only glTF and GLB have a place for them. Throws Error.
+void save_mesh(const std::filesystem::path& file, const Mesh& mesh, int threads = 0, const std::vector<Vec4f>& tangents = {});
 
 // load_mesh for bytes in memory, which may be compressed; the format as an ending ("ply"; "" to go by the first bytes alone).
 // Buffers beside a glTF file are looked for in `folder`; empty: there are none.

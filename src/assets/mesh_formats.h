@@ -11,9 +11,13 @@
 
 namespace relievo {
 
+// Told of parts of the bytes that are not read again unless to complain about them: a mapped file's memory can be given back. Called
+// from several threads at once.
+using Forget = std::function<void(std::string_view part)>;
+
 // Wavefront OBJ. v (with w or colour), vt, vn, f in every form, negative indices, polygons, continued lines; all groups and
 // objects become one mesh; lines, points, curves and materials are passed over.
-Mesh parse_obj(std::string_view bytes, const std::string& file, int threads = 0);
+Mesh parse_obj(std::string_view bytes, const std::string& file, int threads = 0, const Forget& forget = {});
 
 // PLY, ascii or binary of either byte order: elements vertex (x y z, nx ny nz, red green blue, s t or u v), face (vertex_indices or
 // vertex_index) and tristrips (with -1 as restart); any types and order, others passed over.
@@ -42,7 +46,7 @@ void seal_mesh_cache(std::string& bytes, int threads = 0);  // puts the checksum
 // light in glTF. PLY is binary little-endian.
 std::string write_obj(const Mesh& mesh, int threads = 0);
 std::string write_ply(const Mesh& mesh);
-std::string write_glb(const Mesh& mesh);
-std::string write_gltf(const Mesh& mesh);  // one file: the buffer stands in it in base64
+std::string write_glb(const Mesh& mesh, const std::vector<Vec4f>& tangents = {});   // tangents: none, or one per vertex
+std::string write_gltf(const Mesh& mesh, const std::vector<Vec4f>& tangents = {});  // one file: the buffer stands in it in base64
 
 }  // namespace relievo

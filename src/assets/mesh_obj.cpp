@@ -439,7 +439,7 @@ std::vector<T> joined(std::vector<Piece>& pieces, int threads, const ListOf& lis
 
 }  // namespace
 
-Mesh parse_obj(std::string_view bytes, const std::string& file, int threads) {
+Mesh parse_obj(std::string_view bytes, const std::string& file, int threads, const Forget& forget) {
     refuse_binary_text(bytes, file, "OBJ");
     std::string unix_lines;
     if (bytes.find('\n') == std::string_view::npos && bytes.find('\r') != std::string_view::npos) {
@@ -453,7 +453,12 @@ Mesh parse_obj(std::string_view bytes, const std::string& file, int threads) {
     std::vector<Piece> pieces = pieces_of(bytes, last_line);
     const auto count = static_cast<int>(pieces.size());
     parallel_for(count, 1, threads, [&](int begin, int end) {
-        for (int i = begin; i < end; ++i) PieceParser(pieces[static_cast<std::size_t>(i)]).parse();
+        for (int i = begin; i < end; ++i) {
+            Piece& piece = pieces[static_cast<std::size_t>(i)];
+            PieceParser(piece).parse();
+            // A text copied for its line ends, and a last line copied for want of one, are no part of the file.
+            if (forget && unix_lines.empty() && piece.begin != last_line.data()) forget({piece.begin, static_cast<std::size_t>(piece.end - piece.begin)});
+        }
     });
 
     std::array<std::size_t, 3> total{};

@@ -68,7 +68,7 @@ struct GltfParts {
     std::string binary;
 };
 
-GltfParts gltf_parts(const Mesh& mesh) {
+GltfParts gltf_parts(const Mesh& mesh, const std::vector<Vec4f>& tangents) {
     using nlohmann::json;
     GltfParts parts;
     json views = json::array(), accessors = json::array(), attributes = json::object();
@@ -91,6 +91,11 @@ GltfParts gltf_parts(const Mesh& mesh) {
     attributes["POSITION"] = add(vectors(mesh.positions), for_vertices,
         {{"componentType", f32}, {"type", "VEC3"}, {"count", n}, {"min", {low.x, low.y, low.z}}, {"max", {high.x, high.y, high.z}}});
     if (!mesh.normals.empty()) attributes["NORMAL"] = add(vectors(mesh.normals), for_vertices, {{"componentType", f32}, {"type", "VEC3"}, {"count", n}});
+    // The sign needs no change although v does: glTF's bitangent points to the top of the picture as ours does.
+    if (!tangents.empty()) {
+        const std::string bytes(reinterpret_cast<const char*>(tangents.data()), tangents.size() * sizeof(Vec4f));
+        attributes["TANGENT"] = add(bytes, for_vertices, {{"componentType", f32}, {"type", "VEC4"}, {"count", n}});
+    }
     if (!mesh.uvs.empty()) {
         std::string bytes;
         for (const Vec2f& uv : mesh.uvs) append_bytes(bytes, Vec2f(uv.x, 1 - uv.y));  // v runs down in glTF
@@ -194,8 +199,8 @@ std::string write_ply(const Mesh& mesh) {
     return bytes;
 }
 
-std::string write_glb(const Mesh& mesh) {
-    GltfParts parts = gltf_parts(mesh);
+std::string write_glb(const Mesh& mesh, const std::vector<Vec4f>& tangents) {
+    GltfParts parts = gltf_parts(mesh, tangents);
     std::string text = parts.document.dump();
     text.append((4 - text.size() % 4) % 4, ' ');
     parts.binary.append((4 - parts.binary.size() % 4) % 4, '\0');
@@ -209,8 +214,8 @@ std::string write_glb(const Mesh& mesh) {
     return bytes;
 }
 
-std::string write_gltf(const Mesh& mesh) {
-    GltfParts parts = gltf_parts(mesh);
+std::string write_gltf(const Mesh& mesh, const std::vector<Vec4f>& tangents) {
+    GltfParts parts = gltf_parts(mesh, tangents);
     parts.document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(parts.binary);
     return parts.document.dump(1);
 }
