@@ -2,6 +2,8 @@
 
 #include "core/parallel_for.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cassert>
@@ -11,7 +13,8 @@ namespace relievo {
 namespace {
 
 constexpr std::uint32_t empty = 0xffffffff;
-constexpr int grain = 16384;  // vertices per block: long enough to hide the start of a thread
+constexpr int grain = 16384;          // vertices per block: long enough to hide the start of a thread
+constexpr std::size_t ahead = 16;     // slots asked for before the first is looked at: they lie anywhere in memory
 
 // Adding +0 turns -0 into +0, so that numbers that compare equal hash equal.
 std::uint64_t mixed(std::uint64_t hash, float value) {
@@ -41,25 +44,44 @@ std::vector<std::uint32_t> first_equal_vertex(const Mesh& mesh, Compared compare
                (!uvs || mesh.uvs[a] == mesh.uvs[b]) && (!colours || mesh.colours[a] == mesh.colours[b]);
     };
 
-    // At most half full: probes stay short.
+    // A slot holds an index and, in the bits that are left above it, bits of the hash: vertices that differ are mostly told apart without
+    // looking at them. At most half full: probes stay short.
+    const int index_bits = std::bit_width(count);
+    const auto index_mask = static_cast<std::uint32_t>((std::uint64_t{1} << index_bits) - 1);
     const std::size_t slots = std::bit_ceil(count * 2 + 1);
     std::vector<std::uint32_t> table(slots, empty);
     std::vector<std::uint32_t> first(count);  // the slot at first, what it holds in the end
+    std::atomic<bool> any_equal{false};
     parallel_for(static_cast<int>(count), grain, threads, [&](int begin, int end) {
-        for (auto v = static_cast<std::uint32_t>(begin); v < static_cast<std::uint32_t>(end); ++v) {
-            for (std::size_t slot = hash(v) & (slots - 1);; slot = (slot + 1) & (slots - 1)) {
-                const std::atomic_ref<std::uint32_t> held(table[slot]);
-                std::uint32_t other = held.load(std::memory_order_relaxed);
-                if (other == empty && held.compare_exchange_strong(other, v, std::memory_order_relaxed)) other = v;
-                if (other != v && !equal(other, v)) continue;
-                while (v < other && !held.compare_exchange_weak(other, v, std::memory_order_relaxed)) {}
-                first[v] = static_cast<std::uint32_t>(slot);
-                break;
+        bool found = false;
+        std::array<std::uint64_t, ahead> hashes;
+        for (auto from = static_cast<std::size_t>(begin); from < static_cast<std::size_t>(end); from += ahead) {
+            const std::size_t n = std::min(ahead, static_cast<std::size_t>(end) - from);
+            for (std::size_t i = 0; i < n; ++i) {
+                hashes[i] = hash(from + i);
+                __builtin_prefetch(&table[hashes[i] & (slots - 1)], 1);
+            }
+            for (std::size_t i = 0; i < n; ++i) {
+                const auto v = static_cast<std::uint32_t>(from + i);
+                const std::uint32_t tag = static_cast<std::uint32_t>(hashes[i] >> 32 << index_bits), mine = tag | v;
+                for (std::size_t slot = hashes[i] & (slots - 1);; slot = (slot + 1) & (slots - 1)) {
+                    const std::atomic_ref<std::uint32_t> held(table[slot]);
+                    std::uint32_t other = held.load(std::memory_order_relaxed);
+                    if (other == empty && held.compare_exchange_strong(other, mine, std::memory_order_relaxed)) other = mine;
+                    if (other != mine) {
+                        if ((other & ~index_mask) != tag || !equal(other & index_mask, v)) continue;
+                        found = true;
+                        while (mine < other && !held.compare_exchange_weak(other, mine, std::memory_order_relaxed)) {}
+                    }
+                    first[v] = static_cast<std::uint32_t>(slot);
+                    break;
+                }
             }
         }
+        if (found) any_equal = true;
     });
     parallel_for(static_cast<int>(count), grain, threads, [&](int begin, int end) {
-        for (int v = begin; v < end; ++v) first[static_cast<std::size_t>(v)] = table[first[static_cast<std::size_t>(v)]];
+        for (auto v = static_cast<std::uint32_t>(begin); v < static_cast<std::uint32_t>(end); ++v) first[v] = any_equal ? table[first[v]] & index_mask : v;
     });
     return first;
 }

@@ -16,7 +16,8 @@ struct FaceChunks {
 
 // Halves the mesh by a plane across an axis, and the halves again, as long as each part keeps at least `least_faces` (at least 1).
 // A cut lies near the middle where the surface is thin, because work done in chunks is lost along the cuts. A mesh of fewer than
-// twice as many faces is one chunk in its own order. Depends on the mesh alone, never on `threads`.
+// twice as many faces is one chunk. Within a chunk of a mesh of 50,000 faces or more, neighbours in space lie near each other in the
+// list, which makes whatever walks over the surface faster. Depends on the mesh alone, never on `threads`.
 FaceChunks face_chunks(const Mesh& mesh, std::uint32_t least_faces, int threads = 0);
 
 }  // namespace relievo

@@ -19,7 +19,7 @@ struct IndexOrderEntry {
 };
 inline constexpr IndexOrderEntry index_orders[] = {
     {IndexOrder::none, "none", "as the file has it"},
-    {IndexOrder::meshopt, "meshopt", "meshoptimizer's vertex cache: good on every machine, best where vertices are batched"},
+    {IndexOrder::meshopt, "meshopt", "vertices used last and nearly done with first, in the manner of meshoptimizer: best where vertices are batched"},
     {IndexOrder::fifo, "fifo", "meshoptimizer's tipsify: quickest, for a FIFO cache"},
     {IndexOrder::lin_yu, "lin-yu", "Lin and Yu's K-cache reordering: fewest vertices for a FIFO cache"},
 };

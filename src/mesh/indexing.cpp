@@ -4,12 +4,11 @@
 #include "mesh/equal_vertices.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace relievo {
 
 namespace {
-
-constexpr std::uint32_t unused = 0xffffffff;
 
 // values[new_place[v]] = values[v] for the vertices that stay. Places only move down, so it can be done where the values lie.
 template <class T>
@@ -22,20 +21,22 @@ void compact(std::vector<T>& values, const std::vector<std::uint32_t>& kept) {
 }  // namespace
 
 Mesh indexed(Mesh mesh, int threads) {
-    std::vector<std::uint32_t> place = first_equal_vertex(mesh, Compared::everything, threads);
-    parallel_for(static_cast<int>(mesh.indices.size()), 262144, threads, [&](int begin, int end) {
-        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) mesh.indices[i] = place[mesh.indices[i]];
-    });
-    std::fill(place.begin(), place.end(), unused);
-    for (const std::uint32_t v : mesh.indices) place[v] = 0;
-    std::vector<std::uint32_t> kept;
-    kept.reserve(mesh.positions.size());
-    for (std::uint32_t v = 0; v < place.size(); ++v) {
-        if (place[v] == unused) continue;
-        place[v] = static_cast<std::uint32_t>(kept.size());
-        kept.push_back(v);
+    const std::vector<std::uint32_t> first = first_equal_vertex(mesh, Compared::everything, threads);
+    return indexed(std::move(mesh), first, threads);
+}
+
+Mesh indexed(Mesh mesh, const std::vector<std::uint32_t>& first, int threads) {
+    assert(first.size() == mesh.positions.size());
+    std::vector<std::uint8_t> used(first.size(), 0);
+    for (const std::uint32_t v : mesh.indices) used[first[v]] = 1;
+    const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), std::uint8_t{1}));
+    if (count == first.size()) return mesh;  // each is used, so each is the first of its kind
+    std::vector<std::uint32_t> kept, place(first.size());
+    kept.reserve(count);
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+        place[v] = used[v] ? static_cast<std::uint32_t>(kept.size()) : place[first[v]];
+        if (used[v]) kept.push_back(v);
     }
-    if (kept.size() == mesh.positions.size()) return mesh;
     parallel_for(static_cast<int>(mesh.indices.size()), 262144, threads, [&](int begin, int end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) mesh.indices[i] = place[mesh.indices[i]];
     });

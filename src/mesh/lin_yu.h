@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace relievo {
@@ -22,6 +21,6 @@ LinYuWeights lin_yu_weights(int cache);
 
 // The faces of `indices` (three each, below `vertices`) in an order for a FIFO cache of `cache` vertices (4 to 255), each possibly
 // rotated, none turned over. O(faces x valence + vertices x cache). Not thread dependent.
-std::vector<std::uint32_t> lin_yu_order(std::span<const std::uint32_t> indices, std::uint32_t vertices, int cache, const LinYuWeights& weights);
+std::vector<std::uint32_t> lin_yu_order(std::vector<std::uint32_t> indices, std::uint32_t vertices, int cache, const LinYuWeights& weights);
 
 }  // namespace relievo

@@ -36,7 +36,7 @@ Corners corners_of(const Mesh& mesh, const std::vector<std::uint32_t>& place, st
 Vec3f area_vector(const Corners& c) { return Vec3f(cross(Vec3d(c.position[1]) - Vec3d(c.position[0]), Vec3d(c.position[2]) - Vec3d(c.position[0]))); }
 
 // Within 3e-8 of the arc cosine: Abramowitz and Stegun, Handbook of Mathematical Functions, 4.4.46.
-float arc_cosine(float x) {
+inline float arc_cosine(float x) {
     const float a = std::min(std::abs(x), 1.0f);
     const float p = ((((((-0.0012624911f * a + 0.0066700901f) * a - 0.0170881256f) * a + 0.0308918810f) * a - 0.0501743046f) * a + 0.0889789874f) * a -
                      0.2145988016f) * a + 1.5707963050f;
@@ -58,26 +58,111 @@ struct FaceDirections {
     std::array<float, 3> angle;
 };
 
-FaceDirections directions(const Corners& c, bool with_angles) {
-    const Vec3f a = c.position[1] - c.position[0], b = c.position[2] - c.position[1], d = c.position[0] - c.position[2];
-    const float a2 = dot(a, a), b2 = dot(b, b), d2 = dot(d, d);
-    const Vec3f n = cross(d, a);
-    const float n2 = dot(n, n);
+// Of any face, however thin.
+FaceDirections careful_directions(const Corners& c) {
     FaceDirections face;
-    // Floats are good for all but thin faces (here below half a degree) and sizes whose fourth power leaves their range.
-    const float smallest = std::min({a2, b2, d2}), largest = std::max({a2, b2, d2});
-    if (smallest > 1e-12f && largest < 1e12f && n2 > 1e-4f * a2 * d2) {
-        face.normal = n / std::sqrt(n2);
-        if (!with_angles) return face;
-        const float first = arc_cosine(-dot(a, d) / std::sqrt(a2 * d2)), second = arc_cosine(-dot(a, b) / std::sqrt(a2 * b2));
-        face.angle = {first, second, std::max(0.0f, std::numbers::pi_v<float> - first - second)};
-        return face;
-    }
     face.normal = unit(area_vector(c));
-    const Vec3f ua = unit(a), ub = unit(b), ud = unit(d);
-    const float first = arc_cosine(-dot(ua, ud)), second = arc_cosine(-dot(ua, ub));
+    const Vec3f a = unit(c.position[1] - c.position[0]), b = unit(c.position[2] - c.position[1]), d = unit(c.position[0] - c.position[2]);
+    const float first = arc_cosine(-dot(a, d)), second = arc_cosine(-dot(a, b));
     face.angle = {first, second, std::max(0.0f, std::numbers::pi_v<float> - first - second)};
     return face;
+}
+
+// Faces whose directions are found together, number by number, so that the compiler can use vectors. Places that hold no face are
+// computed with the others: every face goes through the same instructions, and its result is the same bits wherever it stands.
+class FaceGroup {
+public:
+    static constexpr std::size_t size = 64;
+
+    void put(std::size_t i, const Vec3f& p0, const Vec3f& p1, const Vec3f& p2) {
+        x0_[i] = p0.x, y0_[i] = p0.y, z0_[i] = p0.z;
+        x1_[i] = p1.x, y1_[i] = p1.y, z1_[i] = p1.z;
+        x2_[i] = p2.x, y2_[i] = p2.y, z2_[i] = p2.z;
+    }
+
+    void find_directions(bool with_angles) {
+        for (std::size_t i = 0; i < size; ++i) {
+            const Vec3f a(x1_[i] - x0_[i], y1_[i] - y0_[i], z1_[i] - z0_[i]), b(x2_[i] - x1_[i], y2_[i] - y1_[i], z2_[i] - z1_[i]),
+                d(x0_[i] - x2_[i], y0_[i] - y2_[i], z0_[i] - z2_[i]);
+            const float a2 = dot(a, a), b2 = dot(b, b), d2 = dot(d, d);
+            const Vec3f n = cross(d, a);
+            const float n2 = dot(n, n);
+            // Floats are good for all but thin faces (here below half a degree) and sizes whose fourth power leaves their range.
+            const float smallest = std::min(a2, std::min(b2, d2)), largest = std::max(a2, std::max(b2, d2));
+            good_[i] = (smallest > 1e-12f) & (largest < 1e12f) & (n2 > 1e-4f * a2 * d2) ? 1 : 0;
+            const float l = std::sqrt(n2);
+            nx_[i] = n.x / l, ny_[i] = n.y / l, nz_[i] = n.z / l;
+            ad_[i] = -dot(a, d) / std::sqrt(a2 * d2);
+            ab_[i] = -dot(a, b) / std::sqrt(a2 * b2);
+        }
+        if (!with_angles) return;
+        for (std::size_t i = 0; i < size; ++i) {
+            const float first = arc_cosine(ad_[i]), second = arc_cosine(ab_[i]);
+            angle0_[i] = first;
+            angle1_[i] = second;
+            angle2_[i] = std::max(0.0f, std::numbers::pi_v<float> - first - second);
+        }
+    }
+
+    // False where the face at i needs care.
+    bool good(std::size_t i) const { return good_[i] != 0; }
+    FaceDirections directions(std::size_t i) const { return {{nx_[i], ny_[i], nz_[i]}, {angle0_[i], angle1_[i], angle2_[i]}}; }
+
+private:
+    using Numbers = std::array<float, size>;
+    Numbers x0_{}, y0_{}, z0_{}, x1_{}, y1_{}, z1_{}, x2_{}, y2_{}, z2_{};
+    Numbers nx_{}, ny_{}, nz_{}, ad_{}, ab_{}, angle0_{}, angle1_{}, angle2_{};
+    std::array<std::int32_t, size> good_{};
+};
+
+// The lowest and highest position that a block of faces touches: whoever owns none of them passes over the block.
+constexpr std::size_t faces_per_block = 1024;
+struct Reach {
+    std::uint32_t low = 0xffffffff, high = 0;
+};
+
+std::vector<Reach> reaches(const Mesh& mesh, const std::vector<std::uint32_t>& place, int threads) {
+    std::vector<Reach> reach((mesh.faces() + faces_per_block - 1) / faces_per_block);
+    parallel_for(static_cast<int>(reach.size()), 32, threads, [&](int begin, int end) {
+        for (auto b = static_cast<std::size_t>(begin); b < static_cast<std::size_t>(end); ++b)
+            for (std::size_t i = 3 * b * faces_per_block; i < std::min(3 * (b + 1) * faces_per_block, mesh.indices.size()); ++i) {
+                const std::uint32_t p = place[mesh.indices[i]];
+                reach[b] = {std::min(reach[b].low, p), std::max(reach[b].high, p)};
+            }
+    });
+    return reach;
+}
+
+// Adds to the positions in [begin, end) the normals of their faces, in the order of the faces, each by its angle or as it is.
+void add_normals(const Mesh& mesh, const std::vector<std::uint32_t>& place, const std::vector<Reach>& reach, std::uint32_t begin, std::uint32_t end, bool by_angle,
+                 std::vector<Vec3f>& normals) {
+    FaceGroup group;
+    std::array<std::uint32_t, FaceGroup::size> face;
+    std::size_t count = 0;
+    const auto add_group = [&] {
+        group.find_directions(by_angle);
+        for (std::size_t i = 0; i < count; ++i) {
+            const FaceDirections d = group.good(i) ? group.directions(i) : careful_directions(corners_of(mesh, place, face[i]));
+            for (std::size_t k = 0; k < 3; ++k)
+                if (const std::uint32_t p = place[mesh.indices[face[i] * std::size_t{3} + k]]; p >= begin && p < end) normals[p] += by_angle ? d.normal * d.angle[k] : d.normal;
+        }
+        count = 0;
+    };
+    for (std::size_t b = 0; b < reach.size(); ++b) {
+        if (reach[b].high < begin || reach[b].low >= end) continue;
+        const bool all_mine = reach[b].low >= begin && reach[b].high < end;
+        for (std::size_t f = b * faces_per_block; f < std::min((b + 1) * faces_per_block, mesh.faces()); ++f) {
+            const std::uint32_t* const v = &mesh.indices[3 * f];
+            if (!all_mine) {
+                const auto mine = [&](std::uint32_t p) { return p - begin < end - begin; };
+                if (!mine(place[v[0]]) && !mine(place[v[1]]) && !mine(place[v[2]])) continue;
+            }
+            group.put(count, mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]);
+            face[count] = static_cast<std::uint32_t>(f);
+            if (++count == FaceGroup::size) add_group();
+        }
+    }
+    if (count > 0) add_group();
 }
 
 // Distinct normals of one position in order of their first face. Sixteen hold all but the wildest; more go to the heap.
@@ -114,11 +199,15 @@ FacesAround faces_around(const Mesh& mesh, const std::vector<std::uint32_t>& pla
 // Every thread owns a range of positions and walks through all faces, skipping those that touch none of its own. No position is
 // written by two, and each is summed in the order of its faces, so the result is the same bits for any number of threads.
 std::vector<Vec3f> continuous_normals(const Mesh& mesh, NormalMode mode, int threads) {
-    assert(mode != NormalMode::none);
+    return continuous_normals(mesh, mode, first_equal_vertex(mesh, Compared::positions, threads), threads);
+}
+
+std::vector<Vec3f> continuous_normals(const Mesh& mesh, NormalMode mode, const std::vector<std::uint32_t>& place, int threads) {
+    assert(mode != NormalMode::none && place.size() == mesh.positions.size());
     const auto count = static_cast<std::uint32_t>(mesh.positions.size());
     std::vector<Vec3f> normals(count);
     if (count == 0) return normals;
-    const std::vector<std::uint32_t> place = first_equal_vertex(mesh, Compared::positions, threads);
+    const std::vector<Reach> reach = mode == NormalMode::distinct ? std::vector<Reach>() : reaches(mesh, place, threads);
     const int workers = threads > 0 ? threads : default_threads();
     const int range = static_cast<int>((count + static_cast<std::uint32_t>(workers) - 1) / static_cast<std::uint32_t>(workers));
 
@@ -131,18 +220,12 @@ std::vector<Vec3f> continuous_normals(const Mesh& mesh, NormalMode mode, int thr
             for (std::uint32_t p = begin; p < end; ++p) {
                 distinct.seen.clear();
                 for (std::uint32_t i = around.offset[p - begin]; i < around.offset[p - begin + 1]; ++i) {
-                    const Vec3f n = directions(corners_of(mesh, place, around.face[i]), false).normal;
+                    const Vec3f n = unit(area_vector(corners_of(mesh, place, around.face[i])));
                     if (dot(n, n) > 0 && distinct.is_new(n)) normals[p] += n;
                 }
             }
         } else {
-            for (std::size_t f = 0; f < mesh.faces(); ++f) {
-                const Corners c = corners_of(mesh, place, f);
-                if (!mine(c.place[0]) && !mine(c.place[1]) && !mine(c.place[2])) continue;
-                const FaceDirections face = directions(c, mode == NormalMode::angle);
-                for (std::size_t k = 0; k < 3; ++k)
-                    if (mine(c.place[k])) normals[c.place[k]] += mode == NormalMode::angle ? face.normal * face.angle[k] : face.normal;
-            }
+            add_normals(mesh, place, reach, begin, end, mode == NormalMode::angle, normals);
         }
         // What is left of unit normals that cancel is rounding; its direction would mean nothing.
         bool cancelled = false;

@@ -4,6 +4,7 @@
 
 #include "core/mesh.h"
 
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -34,5 +35,8 @@ inline constexpr NormalModeEntry normal_modes[] = {
 // Sources: sum and distinct are the two algorithms of the 2009 thesis on fur for arbitrary meshes that the project started from;
 // angle is Thuermer and Wuethrich (1998), "Computing Vertex Normals from Polygonal Facets".
 std::vector<Vec3f> continuous_normals(const Mesh& mesh, NormalMode mode, int threads = 0);
+
+// The same where first_equal_vertex of the positions is known.
+std::vector<Vec3f> continuous_normals(const Mesh& mesh, NormalMode mode, const std::vector<std::uint32_t>& place, int threads = 0);
 
 }  // namespace relievo
