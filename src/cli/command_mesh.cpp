@@ -66,6 +66,7 @@ void add_mesh_command(CLI::App& app) {
         ->default_str("angle");
     verb->add_flag("--index", o->steps.index, "equal vertices become one, unused ones go");
     verb->add_option("--order", o->order, "of faces: meshopt (the default of the bare option), fifo, lin-yu or none")->expected(0, 1)->default_str("meshopt");
+    verb->add_flag("--tangents", o->steps.tangents, "a tangent per vertex, by Mikkelsen's conventions; kept by .glb and .gltf");
     verb->add_option("--cache", o->cache, "size of the FIFO cache that fifo and lin-yu aim at")->check(CLI::Range(4, 255))->capture_default_str();
     verb->add_option("--weights", o->weights, "of lin-yu: per face drawn, freshness, per vertex evicted, per face opened, margin of look-ahead")->expected(5);
     verb->add_option("--batch", o->batch, "all meshes of a folder with all combinations of normals, index and order, as a table in the folder --out");

@@ -87,6 +87,7 @@ nlohmann::ordered_json mesh_json(const PreparedMesh& p, const MeshSteps& steps) 
                                                {"root_mean_square", p.simplify_distance->root_mean_square},
                                                {"samples", p.simplify_distance->samples}};
     }
+    if (steps.tangents) report["tangents"] = {{"vertices_doubled", p.vertices_doubled}, {"ms", rounded(p.ms.tangents)}};
     report["notes"] = mesh.notes;
 
     return {{"faces", mesh.faces()},

@@ -2,8 +2,10 @@
 
 #include "assets/mesh_file.h"
 #include "core/error.h"
+#include "mesh/equal_vertices.h"
 #include "mesh/indexing.h"
 #include "mesh/overdraw.h"
+#include "mesh/tangents.h"
 
 #include <chrono>
 
@@ -48,24 +50,40 @@ PreparedMesh prepare_mesh(Mesh mesh, const MeshSteps& steps) {
         mesh = std::move(s.mesh);
         timer.lap_ms();
     }
+    std::vector<std::uint32_t> place;
     if (steps.normals != NormalMode::none) {
-        mesh.normals = continuous_normals(mesh, steps.normals, steps.threads);
+        place = first_equal_vertex(mesh, Compared::positions, steps.threads);
+        mesh.normals = continuous_normals(mesh, steps.normals, place, steps.threads);
         p.ms.normals = timer.lap_ms();
+        // With continuous normals and nothing else, vertices at one place are equal: they need not be compared again.
+        if (!mesh.uvs.empty() || !mesh.colours.empty()) place = {};
     }
     p.vertices_before = mesh.indices.size();
     p.bytes_before = list_bytes(mesh);
     timer.lap_ms();
     if (steps.index) {
-        mesh = indexed(std::move(mesh), steps.threads);
+        mesh = place.empty() ? indexed(std::move(mesh), steps.threads) : indexed(std::move(mesh), place, steps.threads);
         p.ms.index = timer.lap_ms();
     }
+    place = {};
     if (steps.order.order != IndexOrder::none) {
         OrderSettings order = steps.order;
         order.threads = steps.threads;
         mesh = ordered(std::move(mesh), order);
         p.ms.order = timer.lap_ms();
     }
-    p.bytes_after = indexed_bytes(mesh);
+    if (steps.tangents) {
+        if (mesh.uvs.empty()) throw Error("find the tangents of", mesh.name, "it has no texture coordinates, which tangents follow");
+        if (mesh.normals.empty()) throw Error("find the tangents of", mesh.name, "it has no normals", "add --normals");
+        const std::size_t vertices = mesh.positions.size();
+        timer.lap_ms();
+        TangentMesh t = with_tangents(std::move(mesh));
+        mesh = std::move(t.mesh);
+        p.tangents = std::move(t.tangents);
+        p.vertices_doubled = mesh.positions.size() - vertices;
+        p.ms.tangents = timer.lap_ms();
+    }
+    p.bytes_after = indexed_bytes(mesh) + p.tangents.size() * sizeof(Vec4f);
     p.mesh = std::move(mesh);
     p.box = bounding_box(p.mesh.positions, steps.threads);
     p.sphere = bounding_sphere(p.mesh.positions, steps.threads);
@@ -83,7 +101,7 @@ PreparedMesh prepare_mesh_file(const std::filesystem::path& in, const MeshSteps&
     if (!out.empty()) {
         report(progress, "writing " + out.filename().string(), 0.9);
         timer.lap_ms();
-        save_mesh(out, p.mesh, steps.threads);
+        save_mesh(out, p.mesh, steps.threads, p.tangents);
         p.ms.save = timer.lap_ms();
     }
     report(progress, "preparing " + in.filename().string(), 1);

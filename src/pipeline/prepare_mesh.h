@@ -26,12 +26,13 @@ struct MeshSteps {
     NormalMode normals = NormalMode::none;
     bool index = false;
     OrderSettings order{.order = IndexOrder::none};
+    bool tangents = false;
     int threads = 0;
 };
 
 struct MeshTimes {  // milliseconds; 0 for steps not taken
-    double load = 0, repair = 0, centre = 0, simplify = 0, normals = 0, index = 0, order = 0, save = 0;
-    double total() const { return load + repair + centre + simplify + normals + index + order + save; }
+    double load = 0, repair = 0, centre = 0, simplify = 0, normals = 0, index = 0, order = 0, tangents = 0, save = 0;
+    double total() const { return load + repair + centre + simplify + normals + index + order + tangents + save; }
 };
 
 // The mesh drawn in its own order of indices.
@@ -42,6 +43,8 @@ struct DrawingCost {
 
 struct PreparedMesh {
     Mesh mesh;
+    std::vector<Vec4f> tangents;      // one per vertex where they were asked for; see mesh/tangents.h
+    std::size_t vertices_doubled = 0; // for tangents, where a texture is mirrored
     MeshTimes ms;
     std::size_t vertices_before = 0;  // three a face: the list that the steps began with
     std::size_t bytes_before = 0;
@@ -53,7 +56,8 @@ struct PreparedMesh {
     std::optional<SurfaceDistance> simplify_distance;  // first: the mesh as it was before that step; its time is in no step
 };
 
-// Applies the steps to a mesh at hand. `ms.load` and `ms.save` stay 0.
+// Applies the steps to a mesh at hand. `ms.load` and `ms.save` stay 0. Throws Error for tangents of a mesh without normals or texture
+// coordinates.
 PreparedMesh prepare_mesh(Mesh mesh, const MeshSteps& steps);
 
 // Loads, prepares and, where `out` is not empty, saves. Throws Error.

@@ -12,6 +12,7 @@
 #include "measure/error_picture.h"
 #include "measure/hits.h"
 #include "pipeline/compare.h"
+#include "pipeline/extrusion_figure.h"
 #include "pipeline/map_set_bake.h"
 #include "pipeline/picture_sheet.h"
 #include "pipeline/reference_picture.h"
@@ -365,6 +366,7 @@ void write_docs(const DocsSettings& settings, const Progress& progress) {
     write_file_atomically(out / "effects.md", effects_page(settings.threads));
 
     if (figures) {
+        write_file_atomically(out / "figures" / "mesh-extrusion.svg", svg_text(extrusion_figure(), Paper::either));
         // Every modifier under all its values, where it shows.
         for (const Modifier& m : modifiers()) {
             VarySettings vary = example_of(m);

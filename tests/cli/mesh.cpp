@@ -92,6 +92,24 @@ TEST(Mesh, SeveralTargetsMakeSeveralFiles) {
     EXPECT_TRUE(std::filesystem::exists(folder / "coarse_0.05.ply"));
 }
 
+// Two squares of one sheet, the second with its texture mirrored: the two vertices between them get a tangent for each side.
+TEST(Mesh, TangentsComeWithTheFilesThatHoldThem) {
+    const Folder folder;
+    std::ofstream(folder / "sheet.obj") << "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\n"
+                                           "f 1/1 2/2 5/4 4/3\nf 2/2 3/1 6/3 5/4\n";
+    const std::string glb = folder / "sheet.glb";
+    const Json json = json_of(run({"mesh", folder / "sheet.obj", "--normals", "--index", "--tangents", "--json", "--out", glb}));
+    EXPECT_EQ(json["vertices_after"], 8);
+    EXPECT_EQ(json["report"]["tangents"]["vertices_doubled"], 2);
+    const std::string bytes = read_text(glb);
+    const Json document = Json::parse(bytes.substr(20, bytes.find("BIN", 20) - 24));
+    const std::size_t accessor = document["meshes"][0]["primitives"][0]["attributes"]["TANGENT"];
+    EXPECT_EQ(document["accessors"][accessor]["type"], "VEC4");
+    EXPECT_EQ(document["accessors"][accessor]["count"], 8);
+    EXPECT_EQ(run({"mesh", folder / "sheet.obj", "--normals", "--tangents", "--out", folder / "sheet.ply"}).code, 1);
+    EXPECT_EQ(run({"mesh", cube_in(folder), "--normals", "--tangents", "--out", folder / "cube.glb"}).code, 1) << "no texture coordinates";
+}
+
 TEST(Mesh, WrongWordsAreExplained) {
     const Folder folder;
     const std::string cube = cube_in(folder);
