@@ -15,6 +15,8 @@
 
 #include "assets/mesh_assembly.h"
 #include "assets/mesh_formats.h"
+#include "assets/ply_header.h"
+#include "assets/ply_vertices.h"
 #include "assets/polygon_list.h"
 #include "assets/text_number.h"
 
@@ -24,123 +26,7 @@ namespace {
 
 using text::is_blank;
 
-enum class Type : std::uint8_t { i8, u8, i16, u16, i32, u32, f32, f64 };
-enum class Format { ascii, little, big };
-
-std::size_t size_of(Type type) {
-    constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
-    return sizes[static_cast<std::size_t>(type)];
-}
-
-std::optional<Type> type_named(std::string_view name) {
-    constexpr std::array<std::pair<std::string_view, Type>, 16> names = {{{"char", Type::i8}, {"int8", Type::i8}, {"uchar", Type::u8}, {"uint8", Type::u8},
-        {"short", Type::i16}, {"int16", Type::i16}, {"ushort", Type::u16}, {"uint16", Type::u16}, {"int", Type::i32}, {"int32", Type::i32},
-        {"uint", Type::u32}, {"uint32", Type::u32}, {"float", Type::f32}, {"float32", Type::f32}, {"double", Type::f64}, {"float64", Type::f64}}};
-    for (const auto& [known, type] : names)
-        if (known == name) return type;
-    return std::nullopt;
-}
-
-struct Property {
-    std::string name;
-    Type type = Type::f32;
-    std::optional<Type> count;  // of a list
-};
-
-struct Element {
-    std::string name;
-    std::uint64_t count = 0;
-    std::vector<Property> properties;
-
-    // Bytes an instance needs at least: text needs a digit and a separator per value.
-    std::size_t least_bytes(Format format) const {
-        std::size_t sum = 0;
-        for (const Property& p : properties) sum += format == Format::ascii ? 2 : size_of(p.count.value_or(p.type));
-        return sum;
-    }
-    bool has_list() const { return std::any_of(properties.begin(), properties.end(), [](const Property& p) { return p.count.has_value(); }); }
-};
-
-struct Header {
-    Format format = Format::ascii;
-    std::vector<Element> elements;
-    std::size_t end = 0;  // where the elements begin
-    int unknown_lines = 0;
-};
-
-std::vector<std::string_view> words_of(std::string_view line) {
-    std::vector<std::string_view> words;
-    for (std::size_t i = 0; i < line.size();) {
-        while (i < line.size() && is_blank(line[i])) ++i;
-        const std::size_t start = i;
-        while (i < line.size() && !is_blank(line[i])) ++i;
-        if (i > start) words.push_back(line.substr(start, i - start));
-    }
-    return words;
-}
-
-Header read_header(std::string_view bytes, const std::string& file) {
-    // Lines end with "\n", "\r\n" or "\r"; a file keeps to one of them, and the first byte of binary data may look like another.
-    const std::size_t first_end = bytes.find_first_of("\r\n");
-    const bool lone_return = first_end != std::string_view::npos && bytes[first_end] == '\r' && bytes.substr(first_end, 2) != "\r\n";
-    const char end_of_line = lone_return ? '\r' : '\n';
-
-    Header header;
-    bool has_format = false;
-    int line_number = 0;
-    std::size_t at = 0;
-    for (;;) {
-        ++line_number;
-        const auto fail = [&](const std::string& why) -> Error { return Error("read", file, "line " + std::to_string(line_number) + " of the header: " + why); };
-        const std::size_t end = bytes.find(end_of_line, at);
-        if (end == std::string_view::npos) throw fail("the header is not ended by end_header");
-        const std::vector<std::string_view> words = words_of(bytes.substr(at, end - at));
-        at = end + 1;
-        if (line_number == 1 || words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
-        if (words[0] == "end_header") {
-            header.end = at;
-            break;
-        }
-        if (words[0] == "format") {
-            if (words.size() < 2) throw fail("the format has no name");
-            if (words[1] == "ascii")
-                header.format = Format::ascii;
-            else if (words[1] == "binary_little_endian")
-                header.format = Format::little;
-            else if (words[1] == "binary_big_endian")
-                header.format = Format::big;
-            else
-                throw fail("the format is none of ascii, binary_little_endian, binary_big_endian");
-            has_format = true;
-        } else if (words[0] == "element") {
-            if (words.size() != 3) throw fail("an element is \"element NAME COUNT\"");
-            Element& element = header.elements.emplace_back();
-            element.name = words[1];
-            for (const char c : words[2]) {
-                if (!text::is_digit(c)) throw fail("the count of an element is no number");
-                element.count = element.count * 10 + static_cast<std::uint64_t>(c - '0');
-                if (element.count > (std::uint64_t{1} << 40)) throw fail("the count of an element is absurd");
-            }
-        } else if (words[0] == "property") {
-            const bool list = words.size() == 5 && words[1] == "list";
-            if (!list && words.size() != 3) throw fail("a property is \"property TYPE NAME\" or \"property list COUNT_TYPE TYPE NAME\"");
-            if (header.elements.empty()) throw fail("a property comes before any element");
-            Property property;
-            property.name = words.back();
-            const std::optional<Type> type = type_named(words[list ? 3 : 1]);
-            if (list) property.count = type_named(words[2]);
-            if (!type || (list && !property.count)) throw fail("a property has an unknown type");
-            if (list && (*property.count == Type::f32 || *property.count == Type::f64)) throw fail("the count of a list is not a whole number");
-            property.type = *type;
-            header.elements.back().properties.push_back(std::move(property));
-        } else {
-            ++header.unknown_lines;  // some exporters forget the word "comment"
-        }
-    }
-    if (!has_format) throw Error("read", file, "the header names no format");
-    if (header.elements.empty()) throw Error("read", file, "the header names no element: there is nothing to read");
-    return header;
-}
+using namespace ply;
 
 double load(const char* at, Type type, bool swap) {
     const auto bits = [&]<class T>(T) {
@@ -165,74 +51,6 @@ double load(const char* at, Type type, bool swap) {
 float narrowed(double value) {  // the cast of a double beyond every float is undefined
     return std::abs(value) <= 0x1.fffffefp127 || !std::isfinite(value) ? static_cast<float>(value) : std::copysign(INFINITY, static_cast<float>(std::copysign(1.0, value)));
 }
-
-// Which property of a vertex goes where.
-enum Target : int { x, y, z, nx, ny, nz, red, green, blue, u, v, none };
-
-Target target_named(std::string_view name) {
-    constexpr std::array<std::pair<std::string_view, Target>, 23> names = {{{"x", x}, {"y", y}, {"z", z}, {"nx", nx}, {"ny", ny}, {"nz", nz},
-        {"normal_x", nx}, {"normal_y", ny}, {"normal_z", nz}, {"red", red}, {"green", green}, {"blue", blue}, {"r", red}, {"g", green}, {"b", blue},
-        {"diffuse_red", red}, {"diffuse_green", green}, {"diffuse_blue", blue}, {"u", u}, {"v", v}, {"s", u}, {"t", v}, {"texture_u", u}}};
-    for (const auto& [known, target] : names)
-        if (known == name) return target;
-    return name == "texture_v" ? v : none;
-}
-
-// Values of vertices into the lists of a mesh.
-class VertexSink {
-public:
-    VertexSink(const Element& element, Mesh& mesh) : mesh_(mesh) {
-        std::array<bool, none> given{};
-        for (const Property& property : element.properties) {
-            Target target = property.count ? none : target_named(property.name);
-            if (target != none && given[target]) target = none;  // the first of that meaning counts
-            if (target != none) given[target] = true;
-            targets_.push_back(target);
-            // Whole numbers are shares of the type's largest value; real ones are shares already.
-            const bool colour = target >= red && target <= blue;
-            scales_.push_back(colour && property.type == Type::u8 ? 1.0f / 255 : colour && property.type == Type::u16 ? 1.0f / 65535 : 1.0f);
-        }
-        complete_ = given[x] && given[y] && given[z];
-        const std::size_t n = complete_ ? static_cast<std::size_t>(element.count) : 0;
-        mesh_.positions.resize(n);
-        if (given[nx] && given[ny] && given[nz]) mesh_.normals.resize(n);
-        if (given[red] && given[green] && given[blue]) mesh_.colours.resize(n);
-        if (given[u] && given[v]) mesh_.uvs.resize(n);
-        for (Target& target : targets_)
-            if ((target >= nx && target <= nz && mesh_.normals.empty()) || (target >= red && target <= blue && mesh_.colours.empty()) ||
-                ((target == u || target == v) && mesh_.uvs.empty()))
-                target = none;
-    }
-
-    bool complete() const { return complete_; }
-    Target target(std::size_t property) const { return targets_[property]; }
-
-    void put(std::size_t vertex, std::size_t property, float value) const {
-        switch (targets_[property]) {
-            case x: mesh_.positions[vertex].x = value; break;
-            case y: mesh_.positions[vertex].y = value; break;
-            case z: mesh_.positions[vertex].z = value; break;
-            case nx: mesh_.normals[vertex].x = value; break;
-            case ny: mesh_.normals[vertex].y = value; break;
-            case nz: mesh_.normals[vertex].z = value; break;
-            // Divided, not multiplied: 255/255 has to be 1.
-            case red: mesh_.colours[vertex].x = scaled(value, property); break;
-            case green: mesh_.colours[vertex].y = scaled(value, property); break;
-            case blue: mesh_.colours[vertex].z = scaled(value, property); break;
-            case u: mesh_.uvs[vertex].x = value; break;
-            case v: mesh_.uvs[vertex].y = value; break;
-            case none: break;
-        }
-    }
-
-private:
-    float scaled(float value, std::size_t property) const { return scales_[property] == 1.0f ? value : value / std::round(1.0f / scales_[property]); }
-
-    Mesh& mesh_;
-    std::vector<Target> targets_;
-    std::vector<float> scales_;
-    bool complete_ = false;
-};
 
 // Values one after the other out of binary data.
 class BinarySource {
