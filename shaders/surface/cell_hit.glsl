@@ -7,7 +7,8 @@
 #include "cell_position.glsl"
 
 struct CellRay {
-    ivec2 origin;    // cell in which the ray starts, any integers
+    vec2 corner;     // UV of the texel that is the first corner of the cell in which the ray starts, in [0,1)
+    vec2 uv_per_cell;
     ivec2 turn;      // 1, or -1 along an axis that the ray goes down
     vec2 offset;     // the start in the first cell, turned; within 1 of [0,1)
     vec2 pace;       // cells per unit of descent, >= 0
@@ -34,8 +35,11 @@ CellRay cell_ray(SurfaceRay ray, ivec2 size) {
     vec2 texels = vec2(float(size.x), float(size.y));
     vec2 uv_pace = vec2(abs(ray.uv_per_height.x), abs(ray.uv_per_height.y));
     CellRay r;
-    r.origin = ivec2(x.cell, y.cell);
+    // Moved into one period as whole cells, so that places stay well inside their texels however far the ray starts from the origin.
     r.turn = ivec2(ray.uv_per_height.x > 0.0f ? -1 : 1, ray.uv_per_height.y > 0.0f ? -1 : 1);
+    r.uv_per_cell = vec2(float(r.turn.x) / texels.x, float(r.turn.y) / texels.y);
+    r.corner = vec2((float(x.cell - size.x * int(floor(float(x.cell) / texels.x))) + 0.5f) / texels.x,
+                    (float(y.cell - size.y * int(floor(float(y.cell) / texels.y))) + 0.5f) / texels.y);
     r.offset = vec2(r.turn.x < 0 ? 1.0f - x.inside : x.inside, r.turn.y < 0 ? 1.0f - y.inside : y.inside);
     r.pace = vec2(uv_pace.x * texels.x, uv_pace.y * texels.y);
     r.pace_high = vec2(leading_digits(r.pace.x), leading_digits(r.pace.y));
@@ -44,10 +48,14 @@ CellRay cell_ray(SurfaceRay ray, ivec2 size) {
     return r;
 }
 
-// The map's cell that a turned, relative one is.
-ivec2 map_cell(CellRay r, vec2 cell) { return ivec2(r.origin.x + r.turn.x * int(cell.x), r.origin.y + r.turn.y * int(cell.y)); }
+// UV of a cell's first corner and of its middle, of a turned, relative cell.
+vec2 cell_corner(CellRay r, vec2 cell) { return vec2(r.corner.x + r.uv_per_cell.x * cell.x, r.corner.y + r.uv_per_cell.y * cell.y); }
+vec2 cell_middle(CellRay r, vec2 cell) {
+    vec2 corner = cell_corner(r, cell);
+    return vec2(corner.x + 0.5f * abs(r.uv_per_cell.x), corner.y + 0.5f * abs(r.uv_per_cell.y));
+}
 
-// Height at which the ray first meets a cell, or -1. corners as height_cell gives them for map_cell(r, cell); descent = some descent
+// Height at which the ray first meets a cell, or -1. corners as height_cell gives them for cell_middle(r, cell); descent = some descent
 // since z_start near the cell. Choosing cells, whose surfaces join, takes plain products; solving one does not: the place is offset +
 // pace * descent to a few 1e-7 of a cell, because the product of two numbers of 12 digits is exact and the rest is small. No step
 // relies on the compiler keeping an order of float operations.

@@ -39,9 +39,11 @@ inline constexpr int distance_slices = 64;
 // with 16 that was the largest error on rounded relief, with 32 it is less than half of it (docs/concepts/modifiers.md).
 inline constexpr int horizon_directions = 32;
 
-// How far the roofs of a cell cone map reach, in cells along either axis.
-inline constexpr int near_roof_reach = 4;
+// How far the roofs of a cell cone map reach, in cells ahead along both axes.
+inline constexpr int near_roof_reach = 2;
+inline constexpr int middle_roof_reach = 8;
 inline constexpr int far_roof_reach = 32;
+inline constexpr int cell_cone_quadrants = 4;
 
 struct MapSet {
     HeightField height;
@@ -54,7 +56,7 @@ struct MapSet {
     ImageF robust_cone;           // like cone, of maps/robust_cone.h
     ImageF horizon;               // 32 channels: the horizon's elevation by direction, coded (maps/horizon_map.h); empty until baked
     ImageF distance;              // 1 channel, distance_slices slices stacked upward: maps/distance_map.h; empty until baked
-    ImageF cell_cone;             // 4 channels a cell: largest corner, cone ratio, near roof, far roof; empty until baked
+    ImageF cell_cone;             // 4 channels a cell, 4 quadrants stacked upward: maps/cell_cone.h; empty until baked
 };
 
 }  // namespace relievo

@@ -25,12 +25,13 @@ BoxWalk::BoxWalk(const Section& section, int width, int height) {
     step_ = section.uv_per_texel * size;
     const double end = 1 / section.drop_per_texel;
     // From cell to cell (Amanatides and Woo 1987). A ray flatter than a hundred thousand cells would only fill the memory.
-    Vec2i cell{static_cast<int>(std::floor(at_entry_.x)), static_cast<int>(std::floor(at_entry_.y))};
+    const Vec2i first{static_cast<int>(std::floor(at_entry_.x)), static_cast<int>(std::floor(at_entry_.y))};
+    Vec2i cell = first;
     double x = 0;
     while (x < end && crossed_.size() < 100000) {
         const BoxSpan u = inside(at_entry_.x, step_.x, cell.x, cell.x + 1), v = inside(at_entry_.y, step_.y, cell.y, cell.y + 1);
         const double leave = std::max(x, std::min(u.leave, v.leave));
-        crossed_.push_back({{wrap_index(cell.x, width), wrap_index(cell.y, height)}, x, std::min(leave, end)});
+        crossed_.push_back({{wrap_index(cell.x, width), wrap_index(cell.y, height)}, cell - first, x, std::min(leave, end)});
         if (u.leave <= v.leave) {
             cell.x += step_.x > 0 ? 1 : -1;
         } else {
@@ -38,15 +39,6 @@ BoxWalk::BoxWalk(const Section& section, int width, int height) {
         }
         x = leave;
     }
-}
-
-BoxSpan BoxWalk::cell(Vec2i index) {
-    const BoxSpan u = inside(at_entry_.x, step_.x, index.x, index.x + 1), v = inside(at_entry_.y, step_.y, index.y, index.y + 1);
-    const double enter = std::max({u.enter, v.enter, 0.0});
-    // A corner that the search touches by rounding has no length.
-    const double leave = std::max(enter, std::min(u.leave, v.leave));
-    while (come_ + 1 < crossed_.size() && crossed_[come_].leave <= enter) ++come_;
-    return {enter, leave};
 }
 
 BoxSpan BoxWalk::node(Vec2i index, int level) {
@@ -64,6 +56,16 @@ BoxSpan BoxWalk::node(Vec2i index, int level) {
     while (first > 0 && holds(crossed_[first - 1])) --first;
     come_ = first;
     return {crossed_[first].enter, crossed_[last].leave};
+}
+
+BoxSpan BoxWalk::ahead(int reach) const {
+    const auto within = [&](const Crossed& c) {
+        const Vec2i d = c.moved - crossed_[come_].moved;
+        return std::abs(d.x) <= reach && std::abs(d.y) <= reach;
+    };
+    std::size_t last = come_;
+    while (last + 1 < crossed_.size() && within(crossed_[last + 1])) ++last;
+    return {crossed_[come_].enter, crossed_[last].leave};
 }
 
 }  // namespace relievo

@@ -21,13 +21,14 @@ public:
     // Sizes of the height map, in texels.
     BoxWalk(const Section& section, int width, int height);
 
-    BoxSpan cell(Vec2i index);            // not wrapped
-    BoxSpan node(Vec2i index, int level); // inside one period
+    BoxSpan node(Vec2i index, int level); // 2^level cells along an edge; inside one period
+    BoxSpan ahead(int reach) const;       // from the last node's first cell to `reach` cells farther along either axis
 
 private:
-    // A cell that the ray passes over, inside one period.
+    // A cell that the ray passes over; `cell` is inside one period.
     struct Crossed {
         Vec2i cell;
+        Vec2i moved;  // from the first cell
         double enter, leave;
     };
     Vec2d at_entry_;  // position over the cells where the ray enters the slab

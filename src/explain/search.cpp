@@ -96,6 +96,20 @@ std::vector<Chord> last_chord(const std::vector<Step>& steps, SearchPoint found,
     return {{bracket.above->x, bracket.above->value, bracket.below->x, bracket.below->value}};
 }
 
+// Makes the step of a cell cone one of the roof that leads farthest, if one leads out of the cell: to the far wall of its square, or
+// to where the ray comes down to it.
+void take_roof(Step& step, const glsl::vec4& value, const Section& section, const BoxWalk& walk) {
+    const std::pair<int, float> roofs[] = {{near_roof_reach, value.y}, {middle_roof_reach, value.z}, {far_roof_reach, value.w}};
+    for (const auto& [reach, height] : roofs) {
+        const double comes_down = (1 - static_cast<double>(height)) / section.drop_per_texel;
+        const double leads_to = std::min(walk.ahead(reach).leave, comes_down);
+        if (leads_to <= step.x_end) continue;
+        step.x_end = leads_to;
+        step.value = height;
+        step.skipped = true;
+    }
+}
+
 }  // namespace
 
 Section section_of(const MapSet& maps, const RayQuestion& question, Vec2d true_uv, double true_height) {
@@ -137,13 +151,14 @@ Search search_along(const Section& section, const Technique& technique, const Ma
     for (const Fetch& f : log) {
         Step step{.kind = kind_at_point(f.map), .number = static_cast<int>(&f - log.data()) + 1};
         if (f.place == Fetch::Place::cell || f.place == Fetch::Place::node) {
-            const BoxSpan span = f.place == Fetch::Place::cell ? walk.cell(f.index) : walk.node(f.index, f.level);
+            const BoxSpan span = walk.node(f.index, f.level);
             step.kind = f.place == Fetch::Place::cell ? StepKind::cell : StepKind::node;
             step.x = span.enter;
             step.x_end = span.leave;
             step.size = f.level;
             step.value = step.kind == StepKind::cell ? std::max({f.value.x, f.value.y, f.value.z, f.value.w}) : f.value.x;
             step.skipped = section.ray_height(step.x_end) > step.value;
+            if (f.map == Map::cell_cone) take_roof(step, f.value, section, walk);
             step.solved = step.kind == StepKind::cell && !step.skipped;
         } else {
             step.x = x_of(f.uv);

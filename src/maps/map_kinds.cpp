@@ -132,13 +132,12 @@ constexpr MapKind table[] = {
         .map = Map::cell_cone,
         .id = "cell_cone",
         .title = "Cell cone",
-        .summary = "widest upward cone over each bilinear cell that holds nothing of the surface, and roofs over the cells around it",
-        .format = "largest corner, UV radius per unit of height, highest within 4 and within 32 cells",
+        .summary = "terraced cone over each bilinear cell toward each quadrant that holds nothing of the surface: roofs over the cells ahead",
+        .format = "largest corner, highest of the cells up to 2, 8 and 32 ahead; 4 quadrants stacked upward",
         .source = "relievo 2026",
-        .channels = {{{"maximum", Rounding::up}, {"ratio", Rounding::down}, {"near_roof", Rounding::up}, {"far_roof", Rounding::up}}},
+        .channels = {{{"maximum", Rounding::up}, {"near_roof", Rounding::up}, {"middle_roof", Rounding::up}, {"far_roof", Rounding::up}}},
         .bake = [](MapSet& maps, const MapBake& b) { maps.cell_cone = cell_cone_map(maps.height, b.threads, b.progress); },
         .image = &MapSet::cell_cone,
-        .cached_version = 1,
     },
 };
 constexpr bool in_order_of_maps() {

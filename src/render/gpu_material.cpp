@@ -113,11 +113,25 @@ gpu::Image distance_texture(const gpu::Device& device, const ImageF& map) {
     });
 }
 
-// Values that are whole numbers of 1/65535.
-gpu::Image sixteen_bit_texture(const gpu::Device& device, const ImageF& image, const char* name) {
-    Image<std::uint16_t> whole(image.width, image.height, image.channels);
-    std::ranges::transform(image.texels, whole.texels.begin(), [](float v) { return static_cast<std::uint16_t>(v * 65535.0f + 0.5f); });
-    return single_texture(device, vk::Format::eR16G16B16A16Unorm, whole, name);
+// Values are whole numbers of 1/255, a layer a quadrant (maps/cell_cone.h). A missing map is one cell under a closed roof.
+gpu::Image cell_cone_texture(const gpu::Device& device, const ImageF& map) {
+    const ImageF closed(1, cell_cone_quadrants, 4, 1.0f);
+    const ImageF& image = map.empty() ? closed : map;
+    const int rows = image.height / cell_cone_quadrants;
+    const auto limit = static_cast<int>(device.physical().getProperties().limits.maxImageDimension2D);
+    if (image.width > limit || rows > limit)
+        throw Error("upload", "the cell_cone map", "it is larger than the " + std::to_string(limit) + " texels " + device.info().name + " takes",
+                    "scale the material down");
+    return gpu::make_texture(
+        device, vk::Format::eR8G8B8A8Unorm, {static_cast<std::uint32_t>(image.width), static_cast<std::uint32_t>(rows)}, 1, 4,
+        [&](int, int row, std::byte* out) {
+            const float* from = image.at(0, row);
+            for (int i = 0; i < 4 * image.width; ++i) {
+                const auto texel = static_cast<std::uint8_t>(from[i] * 255.0f + 0.5f);
+                std::memcpy(out + i, &texel, 1);
+            }
+        },
+        cell_cone_quadrants);
 }
 
 struct Bound {
@@ -149,9 +163,7 @@ Bound bound(const gpu::Device& device, const FamilyLayout& layout, Map map, cons
         case Map::robust_cone: return {flat(F::eR32G32Sfloat, maps.robust_cone, {0, 0}, "robust_cone"), *layout.nearest_sampler};
         case Map::distance: return {distance_texture(device, maps.distance), *layout.volume_sampler};
         case Map::cell_cone:
-            return {maps.cell_cone.empty() ? plain_texture(device, F::eR16G16B16A16Unorm, one_texel<std::uint16_t>({65535, 1, 65535, 65535}), "cell_cone")
-                                           : sixteen_bit_texture(device, maps.cell_cone, "cell_cone"),
-                    *layout.nearest_sampler};
+            return {cell_cone_texture(device, maps.cell_cone), *layout.nearest_sampler};
     }
     return {};
 }

@@ -310,7 +310,7 @@ constexpr Technique table[] = {
     {
         SHADER(cell_cone_tracing),
         .title = "Cell cone tracing",
-        .summary = "leaps by cones that hold nothing of the declared surface and solves each cell it may touch",
+        .summary = "leaps under roofs over the cells ahead, a cone in terraces that holds nothing of the surface, and solves each cell it may touch",
         .source = {"relievo", 2026, "Casting a ray at a height field without ever missing it"},
         .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
         .solves = {.level = true, .ramp = true, .wedge = true, .step = true},

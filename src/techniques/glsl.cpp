@@ -81,8 +81,11 @@ float height_at(vec2 uv) {
     return h;
 }
 
-vec4 height_cell(ivec2 cell) {
-    const auto c = fetched(Map::height, "height").height.cell(cell.x, cell.y);
+vec4 height_cell(vec2 middle) {
+    const HeightField& field = fetched(Map::height, "height").height;
+    const ivec2 cell{wrap_index(static_cast<int>(std::floor(middle.x * static_cast<float>(field.width()) - 0.5f)), field.width()),
+                     wrap_index(static_cast<int>(std::floor(middle.y * static_cast<float>(field.height()) - 0.5f)), field.height())};
+    const auto c = field.cell(cell.x, cell.y);
     note_node(Fetch::Place::cell, cell, 0, {c[0], c[1], c[2], c[3]});
     return {c[0], c[1], c[2], c[3]};
 }
@@ -159,16 +162,21 @@ float max_at(ivec2 node, int level) {
     return top;
 }
 
-vec4 cell_cone(ivec2 cell) {
-    const ImageF& map = fetched(Map::cell_cone, "cell_cone").cell_cone;
-    const float* t = map.at(wrap_index(cell.x, map.width), wrap_index(cell.y, map.height));
+vec4 cell_cone(vec2 corner, int quadrant) {
+    const MapSet& maps = fetched(Map::cell_cone, "cell_cone");
+    const int width = maps.height.width();
+    const int height = maps.height.height();
+    const ivec2 wrapped{wrap_index(static_cast<int>(std::floor(corner.x * static_cast<float>(width))), width),
+                        wrap_index(static_cast<int>(std::floor(corner.y * static_cast<float>(height))), height)};
+    const float* t = maps.cell_cone.at(wrapped.x, quadrant * height + wrapped.y);
     const vec4 over{t[0], t[1], t[2], t[3]};
-    note_node(Fetch::Place::node, {wrap_index(cell.x, map.width), wrap_index(cell.y, map.height)}, 0, over);
+    note_node(Fetch::Place::node, wrapped, 0, over);
     return over;
 }
 
 #include "surface/maps.glsl"  // for its constants: the declarations in it are not for C++
 static_assert(horizon_directions == relievo::horizon_directions, "the shadow looks up what the map was baked for");
-static_assert(near_roof_reach == relievo::near_roof_reach && far_roof_reach == relievo::far_roof_reach, "the walk goes as far as the map was baked for");
+static_assert(near_roof_reach == relievo::near_roof_reach && middle_roof_reach == relievo::middle_roof_reach && far_roof_reach == relievo::far_roof_reach,
+              "the walk goes as far as the map was baked for");
 
 }  // namespace relievo::glsl

@@ -63,7 +63,7 @@ struct Fetch {
     Place place = Place::unnamed;
     vec2 uv{};         // point and volume: the texture coordinate, not wrapped
     float height = 0;  // volume: the height
-    ivec2 index{};     // cell: not wrapped; node: inside one period
+    ivec2 index{};     // cell and node: inside one period
     int level = 0;     // node: 2^level cells along an edge
     vec4 value{};      // what was read, in the order of the accessor's result
 };
@@ -74,7 +74,7 @@ extern thread_local std::vector<Fetch>* fetch_log;  // where the calling thread'
 
 ivec2 height_size();
 float height_at(vec2 uv);
-vec4 height_cell(ivec2 cell);
+vec4 height_cell(vec2 middle);
 vec3 normal_at(vec2 uv, float lod);
 vec2 cone_at(vec2 uv);
 vec2 conservative_cone_at(vec2 uv);
@@ -86,6 +86,6 @@ float horizon_at(vec2 uv, int direction);
 float distance_at(vec3 uvz);
 int max_levels();
 float max_at(ivec2 node, int level);
-vec4 cell_cone(ivec2 cell);
+vec4 cell_cone(vec2 corner, int quadrant);
 
 }  // namespace relievo::glsl

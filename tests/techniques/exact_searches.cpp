@@ -257,9 +257,9 @@ constexpr FetchBound fetch_bounds[] = {
     {"max_mip_tracing", "fbm", {10, 14.5, 20}},
     {"max_mip_tracing", "cobble", {13.4, 19.9, 25.4}},
     {"max_mip_tracing", "spikes", {22.2, 53.6, 96}},
-    {"cell_cone_tracing", "fbm", {6.1, 10.8, 15.2}},
-    {"cell_cone_tracing", "cobble", {10.2, 16.2, 21.0}},
-    {"cell_cone_tracing", "spikes", {21.4, 51.2, 90}},
+    {"cell_cone_tracing", "fbm", {5.7, 10, 14.8}},
+    {"cell_cone_tracing", "cobble", {8.7, 13.3, 16.9}},
+    {"cell_cone_tracing", "spikes", {14, 30.3, 51}},
 };
 
 // Fetches per ray of a 1024^2 field at height_scale 0.1.

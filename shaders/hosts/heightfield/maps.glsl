@@ -12,7 +12,7 @@ layout(set = 0, binding = 6) uniform sampler2D relaxed_cone_map;       // biline
 layout(set = 0, binding = 7) uniform sampler2D robust_cone_map;        // nearest, one level
 layout(set = 0, binding = 8) uniform sampler2DArray horizon_map;  // bilinear, a layer for each direction
 layout(set = 0, binding = 9) uniform sampler3D distance_map;           // trilinear, one level
-layout(set = 0, binding = 10) uniform sampler2D cell_cone_map;  // nearest, one level
+layout(set = 0, binding = 10) uniform sampler2DArray cell_cone_map;  // nearest, a layer for each quadrant
 
 // Fetches of the search so far. The shade host never reads it, and the compiler drops it there.
 int fetch_count = 0;
@@ -24,12 +24,11 @@ float height_at(vec2 uv) {
     return textureLod(height_map, uv, 0.0f).x;
 }
 
-vec4 height_cell(ivec2 cell) {
+vec4 height_cell(vec2 middle) {
     ++fetch_count;
-    // Gathered round the cell's middle, half a texel from any other choice of four; wrapped first, so that the hardware's own digits are
-    // enough (an integer remainder would cost as much as the gather). It starts at the upper left: (0,1), (1,1), (1,0), (0,0).
-    vec2 periods = (vec2(cell) + vec2(1.0f)) / vec2(height_size());
-    vec4 g = textureGather(height_map, periods - floor(periods), 0);
+    // Half a texel from any other choice of four; wrapped first, so that the hardware's own digits are enough. A gather starts at the
+    // upper left: (0,1), (1,1), (1,0), (0,0).
+    vec4 g = textureGather(height_map, middle - floor(middle), 0);
     return vec4(g.w, g.z, g.x, g.y);
 }
 
@@ -97,11 +96,9 @@ float max_at(ivec2 node, int level) {
     return texelFetch(pyramid_map, node, level).x;
 }
 
-vec4 cell_cone(ivec2 cell) {
+vec4 cell_cone(vec2 corner, int quadrant) {
     ++fetch_count;
-    // Nearest and repeating: to the middle of a texel, which float reaches to far beyond any ray's way.
-    ivec2 size = textureSize(cell_cone_map, 0);
-    return textureLod(cell_cone_map, (vec2(cell) + vec2(0.5f)) / vec2(size), 0.0f);
+    return textureLod(cell_cone_map, vec3(corner, float(quadrant)), 0.0f);
 }
 
 // Linear albedo; not for searches, so it is not counted.

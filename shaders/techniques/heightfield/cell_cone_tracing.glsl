@@ -1,59 +1,58 @@
-// Cell cone tracing: leap to the wall of a cone that holds nothing of the declared surface wherever in the cell it stands, or through
-// a roof over the cells around where that leads farther; where neither leaves the cell, step to the next one, and solve the bilinear
-// patch of a cell the ray may touch. The declared surface's first hit, up to float rounding, whatever the field (exact_casting in the
-// docs says why). One fetch a leap or step, one more a solved cell. Loses to the maximum pyramid only where spikes stand so close that
-// every leap is short, and needs four channels where the pyramid needs one.
+// Cell cone tracing: leap under the highest of the roofs over the cells ahead, in the quadrant the ray goes to, that it clears; where
+// none of them leads out of the cell, step to the next one, and solve the bilinear patch of a cell the ray may touch. The declared
+// surface's first hit, up to float rounding, whatever the field (exact_casting in the docs says why). One fetch a leap or step, one
+// more a solved cell. Needs sixteen numbers a texel where the maximum pyramid needs one and a third.
 #include "../../surface/cell_hit.glsl"
 #include "../../surface/maps.glsl"
 #include "../../surface/ray_entry.glsl"
 
 SurfaceHit cell_cone_tracing(SurfaceRay ray, MarchParams params) {
     CellRay r = cell_ray(ray, height_size());
-    float uv_speed = length(ray.uv_per_height);
+    int quadrant = (r.turn.x < 0 ? 1 : 0) + (r.turn.y < 0 ? 2 : 0);
+    // Descents to the far walls of the cell (0, 0), and how much farther those of its roofs' squares are.
     vec2 first_wall = vec2((1.0f - r.offset.x) * r.rise.x, (1.0f - r.offset.y) * r.rise.y);
-    vec2 under_near_roof = vec2(float(near_roof_reach) * r.rise.x, float(near_roof_reach) * r.rise.y);
-    vec2 under_far_roof = vec2(float(far_roof_reach) * r.rise.x, float(far_roof_reach) * r.rise.y);
+    vec2 near_walls = vec2(float(near_roof_reach) * r.rise.x, float(near_roof_reach) * r.rise.y);
+    vec2 middle_walls = vec2(float(middle_roof_reach) * r.rise.x, float(middle_roof_reach) * r.rise.y);
+    vec2 far_walls = vec2(float(far_roof_reach) * r.rise.x, float(far_roof_reach) * r.rise.y);
 
     // Skips are biased by a few units in the last place of a height near 1, which covers what rounding does to descents and places.
-    float margin = 4e-7f;
-    float above = ray.z_start - margin;  // descents to a height are taken from here
+    float above = ray.z_start - 4e-7f;  // descents to a height are taken from here
     float descent_end = ray.z_start - ray.z_end;
-    float descent = 0.0f;
+    // Most leaps end on a wall, and are to go on behind it: ways are taken longer by more than their rounding.
+    vec2 pace = vec2(r.pace.x * 1.0000002f, r.pace.y * 1.0000002f);
     vec2 cell = floor(r.offset);
+    float descent = 0.0f;
     int fetches = 0;
-    bool inside = true;
     SurfaceHit hit;
     hit.found = false;
     hit.height = ray.z_end;
     // One loop, tested at its end: machines that run rays in step pay for the body of every loop once more than the longest ray needs,
     // and for both sides of a branch.
     do {
-        vec4 over = cell_cone(map_cell(r, cell));
+        vec4 roof = cell_cone(cell_corner(r, cell), quadrant);
         ++fetches;
-        vec2 wall = vec2(cell.x * r.rise.x + first_wall.x, cell.y * r.rise.y + first_wall.y);  // descents at the cell's far walls
+        vec2 wall = vec2(cell.x * r.rise.x + first_wall.x, cell.y * r.rise.y + first_wall.y);
         float leave = min(wall.x, wall.y);
-        float cone = descent + (above - descent - over.x) * (over.y / (over.y + uv_speed)) - margin;
-        float near_roof = min(min(wall.x + under_near_roof.x, wall.y + under_near_roof.y), above - over.z);
-        float far_roof = min(min(wall.x + under_far_roof.x, wall.y + under_far_roof.y), above - over.w);
-        float leap = max(cone, max(near_roof, far_roof));
-        if (leap <= leave && above - min(leave, descent_end) <= over.x && fetches < params.max_steps) {
+        if (above - min(leave, descent_end) <= roof.x && fetches < params.max_steps) {
             ++fetches;
-            float z = cell_hit(ray, r, height_cell(map_cell(r, cell)), cell, descent);
+            float z = cell_hit(ray, r, height_cell(cell_middle(r, cell)), cell, descent);
             if (z >= 0.0f) {
                 hit.found = true;
                 hit.height = z;
             }
         }
-        float reached = max(max(leap, leave), descent);
-        inside = reached < descent_end;
-        cell = vec2(wall.x <= reached ? max(cell.x + 1.0f, floor(r.offset.x + r.pace.x * reached)) : cell.x,
-                    wall.y <= reached ? max(cell.y + 1.0f, floor(r.offset.y + r.pace.y * reached)) : cell.y);
-        descent = reached;
-    } while (inside && !hit.found && fetches < params.max_steps);
+        // Out of the cell, or as far as a roof leads: to the far walls of its square or to where the ray comes down to it.
+        float near = min(min(wall.x + near_walls.x, wall.y + near_walls.y), above - roof.y);
+        float middle = min(min(wall.x + middle_walls.x, wall.y + middle_walls.y), above - roof.z);
+        float far = min(min(wall.x + far_walls.x, wall.y + far_walls.y), above - roof.w);
+        descent = max(max(leave, near), max(middle, far));
+        cell = vec2(max(wall.x <= descent ? cell.x + 1.0f : cell.x, floor(r.offset.x + pace.x * descent)),
+                    max(wall.y <= descent ? cell.y + 1.0f : cell.y, floor(r.offset.y + pace.y * descent)));
+    } while (descent < descent_end && !hit.found && fetches < params.max_steps);
     // Every field is at least 0, so a view ray that reaches the floor (or runs out of steps) has met it.
     if (!hit.found && ray.z_end <= 0.0f) {
         hit.found = true;
-        hit.height = inside ? max(ray.z_start - descent, ray.z_end) : ray.z_end;
+        hit.height = max(ray.z_start - descent, ray.z_end);
     }
     hit.uv = uv_at(ray, hit.height);
     return hit;

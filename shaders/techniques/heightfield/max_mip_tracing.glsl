@@ -57,7 +57,7 @@ SurfaceHit max_mip_tracing(SurfaceRay ray, MarchParams params) {
         vec4 corners = vec4(0.0f);
         float top_of_node = 0.0f;
         if (level == 0) {
-            corners = height_cell(ivec2(origin.x + cell.x, origin.y + cell.y));
+            corners = height_cell(vec2((float(wrapped.x) + 1.0f) / float(size.x), (float(wrapped.y) + 1.0f) / float(size.y)));
             top_of_node = max(max(corners.x, corners.y), max(corners.z, corners.w));
         } else {
             top_of_node = max_at(node, level);
