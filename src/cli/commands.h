@@ -22,6 +22,7 @@ void add_effects_command(CLI::App& app);
 void add_replicate_command(CLI::App& app, const CommandLine& command_line);
 void add_bake_command(CLI::App& app);
 void add_mesh_command(CLI::App& app);
+void add_fur_command(CLI::App& app);
 void add_report_command(CLI::App& app);
 void add_view_command(CLI::App& app);
 void add_vary_command(CLI::App& app);

@@ -24,6 +24,7 @@ constexpr const char* examples =
     "  relievo explain --material cobbles --technique relief_mapping,cone_step_mapping --view grazing --out ray.svg\n"
     "  relievo bake --material ~/textures/wall --map cone --out wall_cone.exr\n"
     "  relievo mesh bunny.obj --centre --normals --index --order --out bunny.rmesh\n"
+    "  relievo fur bunny.obj --out bunny.png\n"
     "  relievo view --material ~/textures/wall\n"
     "  relievo list techniques";
 
@@ -72,6 +73,7 @@ int run(int argc, char** argv) {
     relievo::add_replicate_command(app, {joined(argc, argv)});
     relievo::add_bake_command(app);
     relievo::add_mesh_command(app);
+    relievo::add_fur_command(app);
     relievo::add_report_command(app);
     relievo::add_list_command(app);
     relievo::add_vary_command(app);

@@ -14,7 +14,8 @@ vk::raii::ShaderModule module_of(const Device& device, std::span<const std::uint
 
 vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout, const DrawPipeline& settings) {
     const auto vertex = module_of(device, settings.vertex);
-    const auto fragment = module_of(device, settings.fragment);
+    vk::raii::ShaderModule fragment = nullptr;
+    if (!settings.fragment.empty()) fragment = module_of(device, settings.fragment);
     std::vector<vk::SpecializationMapEntry> entries;
     for (std::uint32_t i = 0; i < settings.fragment_constants.size(); ++i)
         entries.push_back(
@@ -52,7 +53,7 @@ vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout
                                                     .depthAttachmentFormat = settings.depth};
     return {device.handle(), nullptr,
             vk::GraphicsPipelineCreateInfo{.pNext = &rendering,
-                                           .stageCount = 2,
+                                           .stageCount = settings.fragment.empty() ? 1u : 2u,
                                            .pStages = stages,
                                            .pVertexInputState = &vertices,
                                            .pInputAssemblyState = &assembly,

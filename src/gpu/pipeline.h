@@ -10,9 +10,9 @@ namespace relievo::gpu {
 
 struct DrawPipeline {
     std::span<const std::uint32_t> vertex;
-    std::span<const std::uint32_t> fragment;
-    std::span<const std::uint32_t> fragment_constants;  // specialization constants 0, 1, 2 ...: int, uint or bool
-    std::span<const vk::Format> targets;
+    std::span<const std::uint32_t> fragment = {};  // empty: only depth is written
+    std::span<const std::uint32_t> fragment_constants = {};  // specialization constants 0, 1, 2 ...: int, uint or bool
+    std::span<const vk::Format> targets = {};
     std::span<const vk::VertexInputAttributeDescription> attributes = {};  // of binding 0; none: a strip made up by the vertex program
     std::uint32_t vertex_bytes = 0;                                        // of binding 0, which holds a list of triangles
     vk::Format depth = vk::Format::eUndefined;  // of a depth target that is tested (nearer wins) and written; undefined: there is none

@@ -1,0 +1,149 @@
+#include "cli/commands.h"
+
+#include "cli/progress_display.h"
+#include "core/error.h"
+#include "core/suggest.h"
+#include "pipeline/fur_picture.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace relievo {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const CoatPreset& preset_of(const std::string& id) {
+    if (id.empty()) return coat_presets().front();
+    std::vector<std::string> known;
+    for (const CoatPreset& p : coat_presets()) {
+        if (p.id == id) return p;
+        known.emplace_back(p.id);
+    }
+    throw UsageError(unknown_word("preset", id, known));
+}
+
+void set_knob(Coat& coat, const std::string& setting) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) throw UsageError("--set takes NAME=VALUE, not \"" + setting + "\"");
+    const std::string id = setting.substr(0, equals), text = setting.substr(equals + 1);
+    std::vector<std::string> known;
+    for (const CoatKnob& k : coat_knobs()) {
+        known.emplace_back(k.id);
+        if (k.id != id) continue;
+        float value = 0;
+        const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (fault != std::errc{} || end != text.data() + text.size() || !(value >= k.least && value <= k.most)) {
+            char range[96];
+            std::snprintf(range, sizeof range, "%g to %g", static_cast<double>(k.least), static_cast<double>(k.most));
+            throw UsageError(id + " takes a number from " + range + ", not \"" + text + "\"");
+        }
+        coat.*k.member = value;
+        return;
+    }
+    throw UsageError(unknown_word("setting", id, known));
+}
+
+double rounded(double v) { return std::round(v * 1e4) / 1e4; }
+// JSON has no infinity: where a twentieth of the surface is bare, the ratio is null.
+Json number(double v) { return std::isfinite(v) ? Json(rounded(v)) : Json(); }
+
+Json fur_json(const FurPicture& p, const std::string& preset, const std::string& out) {
+    return {{"mode", "strands"},
+            {"preset", preset},
+            {"faces", p.faces},
+            {"strands", p.strands},
+            {"density_p95_over_p5", p.evenness ? number(p.evenness->density_p95_over_p5) : Json()},
+            {"shared_texel_area", p.evenness ? number(p.evenness->shared_texel_area) : Json()},
+            {"layers", p.layers},
+            {"ms",
+             {{"load", rounded(p.ms.load)}, {"roots", rounded(p.ms.roots)}, {"first_frame", rounded(p.ms.first_frame)}, {"frame_median", rounded(p.ms.frame_median)}}},
+            {"image", out.empty() ? Json() : Json(out)},
+            {"report",
+             {{"device", p.device}, {"prepare_ms", rounded(p.ms.prepare)}, {"grid_ms", rounded(p.ms.grid)}, {"layer_faces", p.layer_faces}, {"passes", p.passes}, {"notes", p.notes}}}};
+}
+
+std::string preset_list() {
+    std::string text;
+    for (const CoatPreset& p : coat_presets()) text += (text.empty() ? "" : "; ") + std::string(p.id) + ": " + std::string(p.summary);
+    return text;
+}
+
+std::string knob_list() {
+    std::string text = "Settings (--set NAME=VALUE):\n";
+    for (const CoatKnob& k : coat_knobs()) {
+        char line[256];
+        std::snprintf(line, sizeof line, "  %-17s %g to %g: %s\n", std::string(k.id).c_str(), static_cast<double>(k.least), static_cast<double>(k.most), std::string(k.help).c_str());
+        text += line;
+    }
+    return text;
+}
+
+}  // namespace
+
+void add_fur_command(CLI::App& app) {
+    struct Options {
+        std::string in, out, mode = "strands", preset, layers = "auto", device;
+        std::vector<std::string> set;
+        double height = 0, density = 100;
+        std::vector<int> size{1280, 800};
+        FurSettings fur;
+        bool json = false, quiet = false;
+    };
+    auto o = std::make_shared<Options>();
+    auto* verb = app.add_subcommand("fur", "Grows fur on any mesh and draws it");
+    verb->add_option("in", o->in, "mesh to read: OBJ, PLY, OFF, STL, glTF, GLB or our cache, each also as .gz")->required();
+    verb->add_option("--mode", o->mode, "strands: each strand found where it stands, no texture")->check(CLI::IsMember({"strands"}))->capture_default_str();
+    verb->add_option("--preset", o->preset, preset_list());
+    verb->add_option("--layers", o->layers, "1 to 64, or auto: as many as the fur is long in the picture")->capture_default_str();
+    verb->add_option("--height", o->height, "length of the longest strand, in percent of the radius of the mesh's smallest sphere")->check(CLI::Range(0.2, 50.0));
+    verb->add_option("--density", o->density, "strands, in percent of the preset's")->check(CLI::Range(0.1, 2000.0))->capture_default_str();
+    verb->add_option("--set", o->set, "NAME=VALUE, a setting of the coat; may be repeated")->take_all();
+    verb->add_option("--size", o->size, "of the picture, pixels across and down")->expected(2);
+    verb->add_option("--passes", o->fur.passes, "frames averaged into the picture, each with its samples elsewhere")->check(CLI::Range(1, 1024))->capture_default_str();
+    verb->add_option("--device", o->device, "that draws: software, or part of a device's name (relievo list devices)");
+    verb->add_option("--threads", o->fur.threads, "0: all cores")->check(CLI::Range(0, 1024))->capture_default_str();
+    verb->add_flag("--quiet", o->quiet, "no progress and no notes");
+    verb->add_flag("--json", o->json, "print what was grown, how even it is and how long it took as JSON");
+    verb->add_option("--out", o->out, "FILE.png");
+    verb->footer("Examples:\n  relievo fur bunny.obj --out bunny.png\n"
+                 "  relievo fur dragon.ply.gz --preset fox --out dragon.png --json\n"
+                 "  relievo fur scan.stl --preset otter --height 4 --density 150 --set lock=0.4 --out wet.png\n"
+                 "  relievo fur cow.obj --layers 32 --size 640 400 --passes 1 --out quick.png\n\n" +
+                 knob_list());
+    verb->callback([o] {
+        if (o->out.empty() && !o->json) throw UsageError("fur needs --out FILE.png for the picture, or --json to measure without one");
+        FurSettings& s = o->fur;
+        const CoatPreset& preset = preset_of(o->preset);
+        s.coat = preset.coat;
+        if (o->height > 0) s.coat.length = static_cast<float>(o->height / 100);
+        s.coat.strands = std::max(1.0f, s.coat.strands * static_cast<float>(o->density / 100));
+        for (const std::string& setting : o->set) set_knob(s.coat, setting);
+        if (o->layers != "auto") {
+            const auto [end, fault] = std::from_chars(o->layers.data(), o->layers.data() + o->layers.size(), s.layers);
+            if (fault != std::errc{} || end != o->layers.data() + o->layers.size() || s.layers < 1 || s.layers > 64)
+                throw UsageError("--layers takes auto or a number from 1 to 64, not \"" + o->layers + "\"");
+        }
+        s.width = o->size[0];
+        s.height = o->size[1];
+        if (s.width < 16 || s.height < 16 || s.width > 16384 || s.height > 16384) throw UsageError("--size takes 16 to 16384 pixels a side");
+        s.device = o->device;
+        s.measure = o->json;
+        const FurPicture p = fur_picture(o->in, s, progress_display(o->quiet));
+        if (!o->out.empty()) write_fur_picture(o->out, p);
+        if (!o->quiet)
+            for (const std::string& note : p.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+        if (o->json)
+            std::printf("%s\n", fur_json(p, std::string(preset.id), o->out).dump(2).c_str());
+        else if (!o->quiet)
+            std::fprintf(stderr, "%s: %zu strands on %zu faces, %d layers, first frame after %.0f ms, then %.0f ms each\n", o->out.c_str(), p.strands, p.faces, p.layers,
+                         p.ms.first_frame, p.ms.frame_median);
+    });
+}
+
+}  // namespace relievo

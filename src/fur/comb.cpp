@@ -1,0 +1,46 @@
+#include "fur/comb.h"
+
+#include "core/parallel_for.h"
+
+#include <cassert>
+#include <cmath>
+
+namespace relievo {
+
+namespace {
+
+// The horizontal way from head to tail.
+Vec3f tailward(const Mesh& mesh) {
+    Vec3d mean;
+    for (const Vec3f& p : mesh.positions) mean += Vec3d(p);
+    mean *= 1.0 / static_cast<double>(mesh.positions.size());
+    double xx = 0, zz = 0, xy = 0, zy = 0;
+    for (const Vec3f& p : mesh.positions) {
+        const Vec3d d = Vec3d(p) - mean;
+        xx += d.x * d.x;
+        zz += d.z * d.z;
+        xy += d.x * d.y;
+        zy += d.z * d.y;
+    }
+    if (xx >= zz) return {xy > 0 ? -1.0f : 1.0f, 0, 0};
+    return {0, 0, zy > 0 ? -1.0f : 1.0f};
+}
+
+}  // namespace
+
+std::vector<Vec3f> combed(const Mesh& mesh, int threads) {
+    assert(mesh.normals.size() == mesh.positions.size());
+    const Vec3f flow = normalize(tailward(mesh) * 0.8f + Vec3f(0, -0.6f, 0));
+    std::vector<Vec3f> combs(mesh.positions.size());
+    parallel_for(static_cast<int>(combs.size()), 16384, threads, [&](int begin, int end) {
+        for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
+            const Vec3f n = mesh.normals[v], d = flow - n * dot(n, flow);
+            // Full strength from 30 degrees off the flow's own direction.
+            const float l = length(d);
+            combs[v] = l > 0.5f ? d / l : d * 2.0f;
+        }
+    });
+    return combs;
+}
+
+}  // namespace relievo

@@ -1,0 +1,15 @@
+// Which way fur lies.
+#pragma once
+
+#include "core/mesh.h"
+
+#include <vector>
+
+namespace relievo {
+
+// For each vertex a vector in the skin, at most 1 long: the way strands lean, and how strongly. Fur flows from the head to the tail and
+// down; where the flow meets the skin head on it stands upright, so that there is no seam. The head is taken for the higher end of
+// the longer horizontal axis (+y is up, as scanners have it). The mesh has unit normals (or none: (0,0,0)).
+std::vector<Vec3f> combed(const Mesh& mesh, int threads = 0);
+
+}  // namespace relievo

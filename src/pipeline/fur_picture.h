@@ -1,0 +1,46 @@
+// A mesh file in fur, as a picture.
+#pragma once
+
+#include "core/image.h"
+#include "core/progress.h"
+#include "fur/coat.h"
+#include "fur/evenness.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace relievo {
+
+struct FurSettings {
+    std::string preset;     // empty: the first
+    Coat coat;              // as the preset says, changed by options
+    int layers = 0;         // 0: as many as the length of the fur in the picture asks for
+    int width = 1280, height = 800;
+    int passes = 16;        // averaged into the picture
+    std::string device;
+    bool measure = false;   // how even the strands are
+    int threads = 0;
+};
+
+struct FurTimes {  // milliseconds
+    double load = 0, prepare = 0, roots = 0, grid = 0, first_frame = 0, frame_median = 0;
+};
+
+struct FurPicture {
+    std::size_t faces = 0, strands = 0;
+    int layers = 0, passes = 0;
+    std::size_t layer_faces = 0;  // of the mesh that was pushed out
+    std::optional<Evenness> evenness;
+    FurTimes ms;  // first_frame: from the loaded mesh to the first whole picture in memory, all steps in between included
+    std::string device;
+    Image8 picture;  // sRGB, rows top to bottom
+    std::vector<std::string> notes;
+};
+
+// Throws Error.
+void write_fur_picture(const std::filesystem::path& png, const FurPicture& picture);
+FurPicture fur_picture(const std::filesystem::path& mesh, const FurSettings& settings, const Progress& progress = {});
+
+}  // namespace relievo

@@ -1,0 +1,371 @@
+#include "render/fur_renderer.h"
+
+#include "core/error.h"
+#include "core/parallel_for.h"
+#include "fur/lock_noise.h"
+#include "gpu/buffer.h"
+#include "gpu/image.h"
+#include "gpu/pipeline.h"
+#include "gpu/volume.h"
+#include "render/programs.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <optional>
+
+namespace relievo {
+
+namespace {
+
+#include "shared/coat.h"
+static_assert(sizeof(CoatUniforms) == 44 * 4 && offsetof(CoatUniforms, root_r) == 31 * 4, "shaders/shared/coat.h without holes");
+
+constexpr vk::Format colour_format = vk::Format::eR8G8B8A8Srgb;
+constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
+constexpr std::uint32_t light_size = 1024;
+constexpr double light_range = 4;  // depth of the light's picture, in fur space: light.vert's unit cube is this wide
+
+struct Vertex {
+    Vec3f position, normal, comb;
+    float length;
+};
+
+struct Push {
+    std::array<float, 16> to_clip, to_light;
+};
+static_assert(sizeof(Push) == 128);  // what every Vulkan device takes
+
+std::span<const std::uint32_t> words_of(std::string_view host) {
+    const auto all = programs();
+    const auto it = std::ranges::find(all, host, &Program::host);
+    assert(it != all.end());
+    return it->words;
+}
+
+// Rows of (x, y, z, offset) as a matrix, columns first.
+std::array<float, 16> matrix(const std::array<std::array<double, 4>, 4>& rows) {
+    std::array<float, 16> m;
+    for (std::size_t r = 0; r < 4; ++r)
+        for (std::size_t c = 0; c < 4; ++c) m[c * 4 + r] = static_cast<float>(rows[r][c]);
+    return m;
+}
+
+// `shift` moves the picture, in pixels.
+std::array<float, 16> eye_matrix(const MeshView& view, Vec2d shift) {
+    const Camera::Axes axes = view.camera.axes();
+    const double up = 1 / std::tan(view.camera.fov_y_rad / 2), across = up * view.height / view.width;
+    const double depth = view.far / (view.far - view.near);
+    const Vec3d w = axes.back * -1.0;
+    const Vec3d x = axes.right * across + w * (2 * shift.x / view.width), y = axes.up * -up + w * (2 * shift.y / view.height), z = w * depth;
+    const Vec3d& e = view.camera.eye;
+    return matrix({{{x.x, x.y, x.z, -dot(x, e)}, {y.x, y.y, y.z, -dot(y, e)}, {z.x, z.y, z.z, -dot(z, e) - depth * view.near}, {w.x, w.y, w.z, -dot(w, e)}}});
+}
+
+struct LightMatrices {
+    std::array<float, 16> to_clip, to_texture;
+};
+LightMatrices light_matrices(Vec3d to_light, double radius) {
+    const Vec3d back = normalize(to_light);
+    const Vec3d right = normalize(cross(std::abs(back.y) < 0.9 ? Vec3d(0, 1, 0) : Vec3d(1, 0, 0), back)), up = cross(back, right);
+    const Vec3d x = right * (1 / radius), y = up * (-1 / radius), z = back * (-1 / light_range);
+    return {matrix({{{x.x, x.y, x.z, 0}, {y.x, y.y, y.z, 0}, {z.x, z.y, z.z, 0.5}, {0, 0, 0, 1}}}),
+            matrix({{{x.x / 2, x.y / 2, x.z / 2, 0.5}, {y.x / 2, y.y / 2, y.z / 2, 0.5}, {z.x, z.y, z.z, 0.5}, {0, 0, 0, 1}}})};
+}
+
+// The i-th point of a sequence that fills the unit square evenly from its beginning (Roberts 2018, "The Unreasonable Effectiveness of
+// Quasirandom Sequences").
+Vec2d quasirandom(int i) {
+    const double x = 0.5 + i * 0.7548776662466927, y = 0.5 + i * 0.5698402909980532;
+    return {x - std::floor(x), y - std::floor(y)};
+}
+
+vk::raii::BufferView texel_view(const gpu::Device& device, const gpu::Buffer& buffer, vk::Format format) {
+    return {device.handle(), vk::BufferViewCreateInfo{.buffer = *buffer.handle, .format = format, .range = VK_WHOLE_SIZE}};
+}
+
+// A buffer of texels; never empty, as Vulkan has no empty buffers.
+template <class T>
+gpu::Buffer texel_buffer(const gpu::Device& device, const std::vector<T>& data) {
+    gpu::Buffer b = gpu::make_buffer(device, std::max<std::size_t>(data.size(), 1) * sizeof(T), vk::BufferUsageFlagBits::eUniformTexelBuffer);
+    std::memcpy(b.mapped, data.data(), data.size() * sizeof(T));
+    return b;
+}
+
+}  // namespace
+
+float strand_reach(const Coat& coat, float spacing, int layers) {
+    // The few that lean farthest are cut a little: lists grow with the square of the reach, and so does the time.
+    const float sway = 0.7f * coat.spread * coat.length + coat.curl_radius * spacing + 1.3f * coat.width * spacing;
+    // What lies half a layer above or below is seen through it, somewhat aside.
+    return std::max(sway + 0.1f * coat.length / static_cast<float>(layers), 0.6f * spacing);
+}
+
+struct FurRenderer::State {
+    gpu::Device device;
+    vk::raii::DescriptorSetLayout set_layout = nullptr;
+    vk::raii::PipelineLayout layout = nullptr;
+    vk::raii::Pipeline skin = nullptr, light = nullptr;
+    std::array<vk::raii::Pipeline, 2> strands{nullptr, nullptr};  // straight, curled
+    vk::raii::Sampler volume_sampler = nullptr, light_sampler = nullptr;
+    gpu::Image noise;
+    gpu::Image light_depth;
+    gpu::Buffer coat_buffer;
+    vk::raii::DescriptorPool pool = nullptr;
+
+    // The model.
+    gpu::Buffer vertices, indices, bricks, starts, lists;
+    vk::raii::BufferView bricks_view = nullptr, starts_view = nullptr, lists_view = nullptr;
+    vk::raii::DescriptorSets sets = nullptr;
+    std::uint32_t index_count = 0;
+    CoatUniforms coat{};
+
+    State(const std::string& choice, bool validation) : device(gpu::DeviceSettings{.choice = choice, .validation = validation}) {
+        using Type = vk::DescriptorType;
+        constexpr Type types[] = {Type::eUniformBuffer, Type::eUniformTexelBuffer, Type::eUniformTexelBuffer, Type::eUniformTexelBuffer, Type::eCombinedImageSampler, Type::eCombinedImageSampler};
+        constexpr auto stages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+        std::vector<vk::DescriptorSetLayoutBinding> bindings;
+        for (std::uint32_t b = 0; b < std::size(types); ++b) bindings.push_back({.binding = b, .descriptorType = types[b], .descriptorCount = 1, .stageFlags = stages});
+        set_layout = {device.handle(), vk::DescriptorSetLayoutCreateInfo{.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()}};
+        const vk::PushConstantRange range{.stageFlags = stages, .size = sizeof(Push)};
+        layout = {device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1, .pSetLayouts = &*set_layout, .pushConstantRangeCount = 1, .pPushConstantRanges = &range}};
+        const vk::VertexInputAttributeDescription attributes[] = {{.location = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(Vertex, position)},
+                                                                  {.location = 1, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(Vertex, normal)},
+                                                                  {.location = 2, .format = vk::Format::eR32G32B32A32Sfloat, .offset = offsetof(Vertex, comb)}};
+        gpu::DrawPipeline settings{.vertex = words_of("shells/skin.vert"),
+                                   .fragment = words_of("shells/skin.frag"),
+                                   .targets = std::span(&colour_format, 1),
+                                   .attributes = attributes,
+                                   .vertex_bytes = sizeof(Vertex),
+                                   .depth = depth_format};
+        skin = gpu::make_pipeline(device, *layout, settings);
+        settings.vertex = words_of("shells/strands.vert");
+        settings.fragment = words_of("shells/strands.frag");
+        for (std::uint32_t curled = 0; curled < 2; ++curled) {
+            settings.fragment_constants = std::span(&curled, 1);
+            strands[curled] = gpu::make_pipeline(device, *layout, settings);
+        }
+        light = gpu::make_pipeline(device, *layout,
+                                   gpu::DrawPipeline{.vertex = words_of("shells/light.vert"), .attributes = attributes, .vertex_bytes = sizeof(Vertex), .depth = depth_format});
+        const auto sampler = [&](vk::Filter filter, vk::SamplerAddressMode mode) {
+            return vk::raii::Sampler(device.handle(), vk::SamplerCreateInfo{.magFilter = filter, .minFilter = filter, .addressModeU = mode, .addressModeV = mode, .addressModeW = mode});
+        };
+        volume_sampler = sampler(vk::Filter::eLinear, vk::SamplerAddressMode::eRepeat);
+        const bool smooth = bool(device.physical().getFormatProperties(depth_format).optimalTilingFeatures & vk::FormatFeatureFlagBits::eSampledImageFilterLinear);
+        light_sampler = sampler(smooth ? vk::Filter::eLinear : vk::Filter::eNearest, vk::SamplerAddressMode::eClampToEdge);
+        const LockNoise locks = lock_noise();
+        constexpr std::uint32_t n = LockNoise::size;
+        noise = gpu::make_volume(device, vk::Format::eR8G8B8A8Snorm, {n, n, n}, 4, [&](int z, int y, std::byte* out) {
+            std::memcpy(out, locks.texels.data() + (static_cast<std::size_t>(z) * n + static_cast<std::size_t>(y)) * n, n * 4);
+        });
+        light_depth = gpu::make_image(device, depth_format, {light_size, light_size}, 1, vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled);
+        coat_buffer = gpu::make_buffer(device, sizeof(CoatUniforms), vk::BufferUsageFlagBits::eUniformBuffer);
+        const vk::DescriptorPoolSize sizes[] = {{Type::eUniformBuffer, 1}, {Type::eUniformTexelBuffer, 3}, {Type::eCombinedImageSampler, 2}};
+        pool = {device.handle(), vk::DescriptorPoolCreateInfo{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, .maxSets = 1, .poolSizeCount = 3, .pPoolSizes = sizes}};
+    }
+
+    void load(const FurModel& model) {
+        const Mesh& mesh = *model.mesh;
+        assert(mesh.normals.size() == mesh.positions.size() && model.comb->size() == mesh.positions.size() && mesh.faces() > 0);
+        const auto elements = device.physical().getProperties().limits.maxTexelBufferElements;
+        if (model.grid->lists.size() > elements || model.grid->starts.size() > elements)
+            throw Error("draw", "fur on " + mesh.name, device.info().name + " reads no more than " + std::to_string(elements) + " texels", "grow fewer (--density)");
+        vertices = gpu::make_buffer(device, mesh.positions.size() * sizeof(Vertex), vk::BufferUsageFlagBits::eVertexBuffer);
+        auto* to = vertices.as<Vertex>();
+        parallel_for(static_cast<int>(mesh.positions.size()), 65536, 0, [&](int begin, int end) {
+            for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v)
+                to[v] = {mesh.positions[v], mesh.normals[v], (*model.comb)[v], model.lengths ? (*model.lengths)[v] : 1.0f};
+        });
+        index_count = static_cast<std::uint32_t>(mesh.indices.size());
+        indices = gpu::make_buffer(device, mesh.indices.size() * 4, vk::BufferUsageFlagBits::eIndexBuffer);
+        std::ranges::copy(mesh.indices, indices.as<std::uint32_t>());
+        bricks_view = nullptr;
+        starts_view = nullptr;
+        lists_view = nullptr;
+        bricks = texel_buffer(device, model.grid->bricks);
+        starts = texel_buffer(device, model.grid->starts);
+        lists = texel_buffer(device, model.grid->lists);
+        bricks_view = texel_view(device, bricks, vk::Format::eR32Uint);
+        starts_view = texel_view(device, starts, vk::Format::eR32Uint);
+        lists_view = texel_view(device, lists, vk::Format::eR32G32Uint);
+
+        sets = nullptr;
+        sets = vk::raii::DescriptorSets(device.handle(), vk::DescriptorSetAllocateInfo{.descriptorPool = *pool, .descriptorSetCount = 1, .pSetLayouts = &*set_layout});
+        const vk::DescriptorBufferInfo uniforms{.buffer = *coat_buffer.handle, .range = VK_WHOLE_SIZE};
+        const vk::BufferView views[] = {*bricks_view, *starts_view, *lists_view};
+        const vk::DescriptorImageInfo volume{.sampler = *volume_sampler, .imageView = *noise.view, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
+        const vk::DescriptorImageInfo lit{.sampler = *light_sampler, .imageView = *light_depth.view, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
+        using Type = vk::DescriptorType;
+        std::vector<vk::WriteDescriptorSet> writes;
+        writes.push_back({.dstSet = *sets[0], .dstBinding = 0, .descriptorCount = 1, .descriptorType = Type::eUniformBuffer, .pBufferInfo = &uniforms});
+        for (std::uint32_t b = 0; b < 3; ++b)
+            writes.push_back({.dstSet = *sets[0], .dstBinding = 1 + b, .descriptorCount = 1, .descriptorType = Type::eUniformTexelBuffer, .pTexelBufferView = &views[b]});
+        writes.push_back({.dstSet = *sets[0], .dstBinding = 4, .descriptorCount = 1, .descriptorType = Type::eCombinedImageSampler, .pImageInfo = &volume});
+        writes.push_back({.dstSet = *sets[0], .dstBinding = 5, .descriptorCount = 1, .descriptorType = Type::eCombinedImageSampler, .pImageInfo = &lit});
+        device.handle().updateDescriptorSets(writes, {});
+
+        const Coat& c = model.coat;
+        coat = {};
+        coat.fur_length = c.length;
+        coat.tilt = c.tilt;
+        coat.bend = c.bend;
+        coat.spread = c.spread;
+        coat.width = c.width * model.spacing;
+        coat.taper = c.taper;
+        coat.length_variation = c.length_variation;
+        coat.lock = c.lock;
+        coat.lock_frequency = 1 / (c.lock_size * LockNoise::hills);
+        coat.curl_radius = c.curl_radius * model.spacing;
+        coat.curl_turns = c.curl_turns;
+        coat.reach = model.grid->reach;
+        coat.off = model.grid->off;
+        coat.cells_per_unit = model.grid->cells_per_unit;
+        coat.low_x = model.grid->low.x;
+        coat.low_y = model.grid->low.y;
+        coat.low_z = model.grid->low.z;
+        coat.bricks_x = model.grid->size[0];
+        coat.bricks_y = model.grid->size[1];
+        coat.bricks_z = model.grid->size[2];
+        // Strands stop what they cover; what they scatter onward is most of it again.
+        coat.extinction = 0.3f * 2 * coat.width / (model.spacing * model.spacing);
+        coat.root_r = c.root_colour.x;
+        coat.root_g = c.root_colour.y;
+        coat.root_b = c.root_colour.z;
+        coat.tip_r = c.tip_colour.x;
+        coat.tip_g = c.tip_colour.y;
+        coat.tip_b = c.tip_colour.z;
+        coat.colour_variation = c.colour_variation;
+        coat.grizzle = c.grizzle;
+        coat.countershade = c.countershade;
+        coat.gloss = c.gloss;
+        coat.guard_hairs = c.guard_hairs;
+    }
+
+    void bind(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& pipeline, const Push& push, vk::Extent2D extent) const {
+        constexpr auto stages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+        commands.setViewport(0, vk::Viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1});
+        commands.setScissor(0, vk::Rect2D{{0, 0}, extent});
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout, 0, {*sets[0]}, {});
+        commands.pushConstants<Push>(*layout, stages, 0, push);
+        commands.bindVertexBuffers(0, {*vertices.handle}, {0});
+        commands.bindIndexBuffer(*indices.handle, 0, vk::IndexType::eUint32);
+    }
+
+    void record_light(const vk::raii::CommandBuffer& commands, const Push& push) const {
+        gpu::transition(commands, light_depth, vk::ImageLayout::eUndefined, vk::ImageLayout::eDepthAttachmentOptimal);
+        const vk::RenderingAttachmentInfo nearest{.imageView = *light_depth.view,
+                                                  .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
+                                                  .loadOp = vk::AttachmentLoadOp::eClear,
+                                                  .storeOp = vk::AttachmentStoreOp::eStore,
+                                                  .clearValue = vk::ClearDepthStencilValue{1, 0}};
+        commands.beginRendering({.renderArea = {{0, 0}, light_depth.extent}, .layerCount = 1, .pDepthAttachment = &nearest});
+        bind(commands, light, push, light_depth.extent);
+        commands.drawIndexed(index_count, 1, 0, 0, 0);
+        commands.endRendering();
+        gpu::transition(commands, light_depth, vk::ImageLayout::eDepthAttachmentOptimal, vk::ImageLayout::eShaderReadOnlyOptimal);
+    }
+};
+
+FurRenderer::FurRenderer(const std::string& device, bool validation)
+    : state_(gpu::vulkan_errors_as("start", "the device", [&] { return std::make_unique<State>(device, validation); })) {}
+FurRenderer::~FurRenderer() = default;
+
+std::string FurRenderer::device_name() const { return state_->device.info().name; }
+std::vector<std::string> FurRenderer::validation_messages() const { return state_->device.validation_messages(); }
+
+void FurRenderer::load(const FurModel& model) {
+    gpu::vulkan_errors_as("load", model.mesh->name, [&] { state_->load(model); });
+}
+
+FurFrames FurRenderer::draw(const FurView& view) {
+    State& s = *state_;
+    const MeshView& camera = view.camera;
+    assert(view.layers >= 1 && view.passes >= 1 && s.index_count > 0);
+    const auto limit = static_cast<int>(s.device.physical().getProperties().limits.maxFramebufferWidth);
+    if (camera.width < 1 || camera.height < 1 || camera.width > limit || camera.height > limit)
+        throw Error("draw", "a picture of " + std::to_string(camera.width) + " x " + std::to_string(camera.height),
+                    s.device.info().name + " draws 1 to " + std::to_string(limit) + " pixels a side");
+    return gpu::vulkan_errors_as("draw", "fur", [&] {
+        const vk::Extent2D extent{static_cast<std::uint32_t>(camera.width), static_cast<std::uint32_t>(camera.height)};
+        using Usage = vk::ImageUsageFlagBits;
+        // One sample a pixel: on the software device four cost four times as much, and further passes buy more for that.
+        const gpu::Image colour = gpu::make_image(s.device, colour_format, extent, 1, Usage::eColorAttachment | Usage::eTransferSrc);
+        const gpu::Image depth = gpu::make_image(s.device, depth_format, extent, 1, Usage::eDepthStencilAttachment);
+        const std::size_t pixels = std::size_t{extent.width} * extent.height;
+        const gpu::Buffer texels = gpu::make_buffer(s.device, pixels * 4, vk::BufferUsageFlagBits::eTransferDst);
+
+        s.coat.layers = view.layers;
+        s.coat.eye_x = static_cast<float>(camera.camera.eye.x);
+        s.coat.eye_y = static_cast<float>(camera.camera.eye.y);
+        s.coat.eye_z = static_cast<float>(camera.camera.eye.z);
+        s.coat.pixel_angle = static_cast<float>(2 * std::tan(camera.camera.fov_y_rad / 2) / camera.height);
+        const Vec3d key = normalize(view.to_key), rim = normalize(view.to_rim);
+        s.coat.key_x = static_cast<float>(key.x);
+        s.coat.key_y = static_cast<float>(key.y);
+        s.coat.key_z = static_cast<float>(key.z);
+        s.coat.rim_x = static_cast<float>(rim.x);
+        s.coat.rim_y = static_cast<float>(rim.y);
+        s.coat.rim_z = static_cast<float>(rim.z);
+
+        std::array<float, 256> linear;
+        for (std::size_t i = 0; i < 256; ++i) {
+            const double v = static_cast<double>(i) / 255;
+            linear[i] = static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+        }
+        FurFrames frames;
+        frames.colour = ImageF(camera.width, camera.height, 3);
+        frames.coverage = ImageF(camera.width, camera.height, 1);
+        for (int pass = 0; pass < view.passes; ++pass) {
+            const auto start = std::chrono::steady_clock::now();
+            // The first pass is the picture as a frame of a film would show it; those after it move samples and light a little.
+            const Vec2d r = quasirandom(pass);
+            const Vec2d shift = view.passes == 1 ? Vec2d{} : Vec2d(r.x - 0.5, r.y - 0.5);
+            const Vec2d l = quasirandom(pass * 3 + 1);
+            const LightMatrices light = light_matrices(key + Vec3d(l.x - 0.5, 0, l.y - 0.5) * (view.passes == 1 ? 0 : 0.12), 1.2 + s.coat.fur_length);
+            s.coat.sample_shift = static_cast<float>(pass * 0.6180339887498949 - std::floor(pass * 0.6180339887498949));
+            std::memcpy(s.coat_buffer.mapped, &s.coat, sizeof s.coat);
+            s.device.run([&](const vk::raii::CommandBuffer& commands) {
+                s.record_light(commands, {light.to_clip, light.to_texture});
+                gpu::transition(commands, colour, vk::ImageLayout::eUndefined, vk::ImageLayout::eColorAttachmentOptimal);
+                gpu::transition(commands, depth, vk::ImageLayout::eUndefined, vk::ImageLayout::eDepthAttachmentOptimal);
+                const vk::RenderingAttachmentInfo into{.imageView = *colour.view,
+                                                       .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
+                                                       .loadOp = vk::AttachmentLoadOp::eClear,
+                                                       .storeOp = vk::AttachmentStoreOp::eStore,
+                                                       .clearValue = vk::ClearColorValue(std::array{0.0f, 0.0f, 0.0f, 0.0f})};
+                const vk::RenderingAttachmentInfo nearest{.imageView = *depth.view,
+                                                          .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
+                                                          .loadOp = vk::AttachmentLoadOp::eClear,
+                                                          .storeOp = vk::AttachmentStoreOp::eDontCare,
+                                                          .clearValue = vk::ClearDepthStencilValue{1, 0}};
+                commands.beginRendering({.renderArea = {{0, 0}, extent}, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &into, .pDepthAttachment = &nearest});
+                const Push push{eye_matrix(camera, shift), light.to_texture};
+                s.bind(commands, s.skin, push, extent);
+                commands.drawIndexed(s.index_count, 1, 0, 0, 0);
+                s.bind(commands, s.strands[s.coat.curl_radius > 0], push, extent);
+                commands.drawIndexed(s.index_count, static_cast<std::uint32_t>(view.layers), 0, 0, 0);
+                commands.endRendering();
+                gpu::transition(commands, colour, vk::ImageLayout::eColorAttachmentOptimal, vk::ImageLayout::eTransferSrcOptimal);
+                gpu::read_back(commands, colour, texels);
+            });
+            const auto* from = texels.as<std::uint8_t>();
+            const float weight = 1 / static_cast<float>(view.passes);
+            parallel_for(static_cast<int>(pixels), 65536, 0, [&](int begin, int end) {
+                for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
+                    if (from[p * 4 + 3] == 0) continue;
+                    for (std::size_t c = 0; c < 3; ++c) frames.colour.texels[p * 3 + c] += weight * linear[from[p * 4 + c]];
+                    frames.coverage.texels[p] += weight;
+                }
+            });
+            frames.frame_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+        }
+        return frames;
+    });
+}
+
+}  // namespace relievo

@@ -1,0 +1,63 @@
+// Fur in shells, headless: the mesh, its layers, and light that finds its way between strands.
+#pragma once
+
+#include "core/image.h"
+#include "core/mesh.h"
+#include "fur/coat.h"
+#include "fur/strand_grid.h"
+#include "render/mesh_renderer.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace relievo {
+
+// Everything in fur space: the mesh's smallest sphere is the unit sphere around the origin.
+struct FurModel {
+    const Mesh* mesh = nullptr;          // with unit normals; what is pushed out
+    const std::vector<Vec3f>* comb = nullptr;     // of its vertices
+    const std::vector<float>* lengths = nullptr;  // of its vertices, shares of the coat's length; null: 1 everywhere
+    const StrandGrid* grid = nullptr;
+    Coat coat;
+    float spacing = 0.01f;               // mean distance between roots
+};
+
+struct FurView {
+    MeshView camera;
+    Vec3d to_key{-0.45, 0.75, 0.55};  // toward the key light, of any length
+    Vec3d to_rim{0.6, 0.35, -0.8};
+    int layers = 16;  // at least 1
+    int passes = 8;   // frames with their pixels' samples moved, averaged; at least 1
+};
+
+struct FurFrames {
+    ImageF colour;    // 3 channels, linear light, premultiplied by coverage: the backdrop is missing
+    ImageF coverage;  // 1 channel, share of the pixel's samples that fur or skin covers
+    std::vector<double> frame_ms;  // of each pass, from its submission to its picture in memory
+};
+
+// How far a strand may be from where its root alone would put it, in fur space.
+float strand_reach(const Coat& coat, float spacing, int layers);
+
+class FurRenderer {
+public:
+    // Devices are chosen as by GpuRenderer. Throws Error.
+    explicit FurRenderer(const std::string& device, bool validation = false);
+    ~FurRenderer();
+
+    std::string device_name() const;
+    std::vector<std::string> validation_messages() const;
+
+    // Copies what a model needs to the device; the model before is forgotten. The model's own data may go afterwards.
+    void load(const FurModel& model);
+
+    // The model loaded last. Throws Error, for pictures the device cannot draw too.
+    FurFrames draw(const FurView& view);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,111 @@
+// relievo fur as a user meets it: what the JSON promises, what lands in the file, and what is said of wrong words and meshes.
+#include "cli/program.h"
+
+#include "assets/image_file.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+
+namespace relievo::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string written(const Folder& folder, const std::string& name, const std::string& text) {
+    std::ofstream(folder / name) << text;
+    return folder / name;
+}
+
+// A tetrahedron far from the origin, with a vertex that nobody uses still farther.
+std::string tetrahedron_in(const Folder& folder) {
+    return written(folder, "small.obj", "v 101 1 1\nv 101 -1 -1\nv 99 1 -1\nv 99 -1 1\nv 9000 0 0\nf 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 4 3\n");
+}
+
+// Everything but the time it takes is small.
+std::vector<std::string> quick(const std::string& mesh, const std::vector<std::string>& more) {
+    std::vector<std::string> all{"fur", mesh, "--quiet", "--size", "96", "64", "--passes", "1", "--density", "2"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+TEST(Fur, JsonKeepsItsPromiseAndThePictureIsThere) {
+    if (!has_device()) GTEST_SKIP() << "no Vulkan device";
+    const Folder folder;
+    const std::string out = folder / "fur.png";
+    const Ended ended = run(quick(tetrahedron_in(folder), {"--json", "--out", out}));
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const Json json = Json::parse(ended.out, nullptr, false);
+    std::vector<std::string> keys;
+    for (const auto& item : json.items()) keys.push_back(item.key());
+    EXPECT_EQ(keys, (std::vector<std::string>{"mode", "preset", "faces", "strands", "density_p95_over_p5", "shared_texel_area", "layers", "ms", "image", "report"}));
+    EXPECT_EQ(json["mode"], "strands");
+    EXPECT_EQ(json["preset"], "rabbit");
+    EXPECT_EQ(json["faces"], 4);
+    EXPECT_NEAR(json["strands"].get<double>(), 4000, 400);
+    EXPECT_LT(json["density_p95_over_p5"].get<double>(), 1.5);
+    EXPECT_EQ(json["shared_texel_area"], 0.0);
+    EXPECT_GE(json["layers"].get<int>(), 1);
+    for (const char* step : {"load", "roots", "first_frame", "frame_median"}) EXPECT_GT(json["ms"][step].get<double>(), 0) << step;
+    EXPECT_EQ(json["image"], out);
+    const Image8 picture = read_image_8(out, FirstRow::top);
+    EXPECT_EQ(picture.width, 96);
+    EXPECT_EQ(picture.height, 64);
+    EXPECT_NE(picture(48, 32, 0), picture(0, 0, 0));
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);  // nothing temporary is left
+}
+
+TEST(Fur, PresetsAndSettingsChangeThePicture) {
+    if (!has_device()) GTEST_SKIP() << "no Vulkan device";
+    const Folder folder;
+    const std::string mesh = tetrahedron_in(folder);
+    std::vector<std::string> pictures;
+    for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--preset", "sheep"}, {"--height", "3"}, {"--set", "tilt=0"}, {"--layers", "4"}}) {
+        std::vector<std::string> all = quick(mesh, more);
+        all.insert(all.end(), {"--out", folder / "fur.png"});
+        const Ended ended = run(all);
+        ASSERT_EQ(ended.code, 0) << ended.err;
+        pictures.push_back(read_text(folder / "fur.png"));
+        for (std::size_t i = 0; i + 1 < pictures.size(); ++i) EXPECT_NE(pictures[i], pictures.back()) << i;
+    }
+}
+
+TEST(Fur, RefusesWrongWordsWithAWayOn) {
+    const Folder folder;
+    const std::string mesh = tetrahedron_in(folder);
+    const struct {
+        std::vector<std::string> words;
+        const char* said;
+    } cases[] = {{{}, "--out FILE.png"},
+                 {{"--json", "--preset", "rabit"}, "rabbit"},
+                 {{"--json", "--set", "tillt=1"}, "tilt"},
+                 {{"--json", "--set", "tilt=9"}, "0 to 1.3"},
+                 {{"--json", "--set", "tilt"}, "NAME=VALUE"},
+                 {{"--json", "--layers", "many"}, "auto"},
+                 {{"--json", "--layers", "65"}, "1 to 64"},
+                 {{"--json", "--mode", "feathers"}, "strands"},
+                 {{"--json", "--height", "80"}, "50"}};
+    for (const auto& c : cases) {
+        std::vector<std::string> all{"fur", mesh};
+        all.insert(all.end(), c.words.begin(), c.words.end());
+        const Ended ended = run(all);
+        EXPECT_EQ(ended.code, 2) << ended.err;
+        EXPECT_NE(ended.err.find(c.said), std::string::npos) << ended.err;
+    }
+}
+
+TEST(Fur, RefusesMeshesWithoutASurface) {
+    if (!has_device()) GTEST_SKIP() << "no Vulkan device";
+    const Folder folder;
+    for (const char* text : {"v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n", "v 0 0 0\n", ""}) {
+        const Ended ended = run(quick(written(folder, "bad.obj", text), {"--json", "--out", folder / "fur.png"}));
+        EXPECT_EQ(ended.code, 1) << text << ended.out;
+        EXPECT_NE(ended.err.find("bad"), std::string::npos) << ended.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "fur.png"));
+    }
+}
+
+}  // namespace
+}  // namespace relievo::test
