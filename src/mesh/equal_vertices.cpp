@@ -1,5 +1,6 @@
 #include "mesh/equal_vertices.h"
 
+#include "core/large_pages.h"
 #include "core/parallel_for.h"
 
 #include <algorithm>
@@ -46,10 +47,12 @@ std::vector<std::uint32_t> first_equal_vertex(const Mesh& mesh, Compared compare
 
     // A slot holds an index and, in the bits that are left above it, bits of the hash: vertices that differ are mostly told apart without
     // looking at them. At most half full: probes stay short.
-    const int index_bits = std::bit_width(count);
+    const auto index_bits = static_cast<int>(std::bit_width(count));
     const auto index_mask = static_cast<std::uint32_t>((std::uint64_t{1} << index_bits) - 1);
     const std::size_t slots = std::bit_ceil(count * 2 + 1);
-    std::vector<std::uint32_t> table(slots, empty);
+    std::vector<std::uint32_t> table;
+    reserve_large(table, slots);
+    table.resize(slots, empty);
     std::vector<std::uint32_t> first(count);  // the slot at first, what it holds in the end
     std::atomic<bool> any_equal{false};
     parallel_for(static_cast<int>(count), grain, threads, [&](int begin, int end) {
