@@ -115,7 +115,7 @@ TEST(IndexOrder, IsAsGoodAsItsName) {
 }
 
 // `meshopt` is our own way to what the library's call aims at: on scans it must not fall behind it where vertices are batched, which is
-// why it is the default. A regular grid is the library's best case and costs us 5 % more.
+// why it is the default. A regular grid is the library's best case and costs us 6 % more.
 TEST(IndexOrder, MeshoptKeepsUpWithTheLibraryOfThatName) {
     const auto batched_over_library = [](const Mesh& mesh) {
         const Mesh ours = ordered(mesh, {.order = IndexOrder::meshopt});
@@ -126,7 +126,7 @@ TEST(IndexOrder, MeshoptKeepsUpWithTheLibraryOfThatName) {
     EXPECT_LT(batched_over_library(test::shuffled(made_up_scan({.faces = 60000}), 8)), 1.005);
     EXPECT_LT(batched_over_library(made_up_scan({.faces = 30000, .seed = 5})), 1.005);
     EXPECT_LT(batched_over_library(test::torus(200, 80)), 1);
-    EXPECT_LT(batched_over_library(test::grid(100)), 1.06);
+    EXPECT_LT(batched_over_library(test::grid(100)), 1.08);
 }
 
 // A hub of very many faces, whose candidates do not all fit: every face once, and in time that grows with their number.
