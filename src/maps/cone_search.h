@@ -1,4 +1,4 @@
-// What the searches for cones of the declared surface share and what does not depend on the machine's lanes (cone_search_lanes.h).
+// What the searches for cones share and what does not depend on the machine's lanes (cone_search_lanes.h).
 #pragma once
 
 #include "core/height_field.h"
@@ -6,6 +6,8 @@
 #include "core/progress.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -14,80 +16,141 @@
 
 namespace relievo::cone_search {
 
-constexpr int tile_w = 8;
-constexpr int tile_h = 8;
-constexpr int leaf_level = 2;  // blocks of 4x4 cells are taken cell by cell
+constexpr int tile = 8;        // texels a side that search together
+constexpr int leaf_level = 2;  // blocks of 4x4 texels are taken texel by texel
 
-// Tests compare d2 with q rise^2 instead of dividing; rounding never closes a node that a division would have let through.
-constexpr float slack = 1.0f + 0x1p-20f;
+// Tests compare products with squares instead of dividing; this much less never closes a node that the division would have opened.
+constexpr float slack = 1.0f - 0x1p-20f;
 // A found ratio is lowered by this share. Every quantity below carries at most some ten roundings of 2^-24.
 constexpr float rounding_down = 1.0f - 0x1p-20f;
-constexpr float no_limit = 4.0f;  // a squared ratio above every bound
 
-struct Corners {
-    float h00, h10, h01, h11;
-};
-
-// A cell as one texel sees it, turned so that it lies in the quadrant of positive x and y: every cell lies wholly in one closed quadrant
-// of every texel centre. Heights are relative to the texel's, places in texels from it.
+// A cell as one texel sees it, turned so that it lies in the quadrant of positive x and y: every cell lies wholly in one closed
+// quadrant of every texel centre. Heights are relative to the texel's, places in texels from it.
 struct Cell {
     double h00, h10, h01, h11;  // h00 is the corner nearest to the texel
     double x, y;                // of that corner, whole and >= 0
 };
 
+// UV units per texel, and how texels stand for what is between them.
 struct Metric {
     int width, height;
     float u2, v2;  // (UV per texel)^2
+    // For a point p of a cell let r(p) be its distance from the apex and r_i those of the corners. The blend of the r_i^2 exceeds
+    // r(p)^2 by a (1-a) du^2 + b (1-b) dv^2, at most k = (du^2 + dv^2) / 4; and since the square root is concave, the blend of the
+    // sqrt(r_i^2 - k) is at most r(p). So if every corner obeys  h_i - h <= K sqrt(r_i^2 - k),  every point obeys  h(p) - h <= K
+    // r(p): it is enough to look at texels, each a little nearer than it is. k has to stay below the squared distances it is taken
+    // from; where texels are so much longer than wide that it does not, a texel counts as near as its cells instead, and k is 0.
+    float nearer;
+    float step;  // texels taken off each gap: 0, or 1 in the second case
+
+    Metric(int w, int h)
+        : width(w),
+          height(h),
+          u2(1.0f / (static_cast<float>(w) * static_cast<float>(w))),
+          v2(1.0f / (static_cast<float>(h) * static_cast<float>(h))) {
+        const float k = 0.25f * (u2 + v2);
+        const bool near_square = k < 0.9f * std::min(u2, v2);
+        nearer = near_square ? k : 0.0f;
+        step = near_square ? 0.0f : 1.0f;
+    }
 };
 
-// Highest reach of groups of 2^k x 2^k cells, up to a single node; sizes rounded up.
-// Rule::reach(corners h00, h10, h01, h11, channel) is the highest point of a cell that may limit a cone, below 0 if none may; there is
-// one channel, or one for each quadrant a cell is seen in (x negative + 2 y negative).
-template <class Rule>
-std::vector<ImageF> reaches(const HeightField& field, int threads) {
+// The octants from +x on, towards +y, in texels: the directions of one lie between 45 degrees times its number and its number + 1.
+using Octants = std::uint8_t;
+
+// Those that a box [x0, x1] x [y0, y1] beside, around or on the point from which it is seen reaches into.
+inline unsigned octants_of(int x0, int x1, int y0, int y1) {
+    // v from 0 to u
+    const auto between = [](int u1, int v0, int v1) { return v1 >= 0 && u1 >= std::max(v0, 0) ? 1u : 0u; };
+    return between(x1, y0, y1) | between(y1, x0, x1) << 1 | between(y1, -x1, -x0) << 2 | between(-x0, y0, y1) << 3 |
+           between(-x0, -y1, -y0) << 4 | between(-y0, -x1, -x0) << 5 | between(-y0, x0, x1) << 6 | between(x1, -y1, -y0) << 7;
+}
+
+// What may limit a cone: the height of texels, largest of blocks of 2^k x 2^k of them, up to a single node; sizes rounded up.
+// Where Cells::directional, a cell counts only as seen in the octants Cells::octants(corners), and there is a channel for each
+// quadrant (x negative + 2 y negative); texels have the octants of all their cells, and where a texel has none it is at -1.
+struct Reach {
+    std::vector<ImageF> levels;
+    std::vector<Octants> cells, texels;
+};
+
+template <class Cells>
+Reach reach_of(const HeightField& field, int threads) {
     const int w = field.width();
     const int h = field.height();
-    std::vector<ImageF> levels{ImageF(w, h, Rule::channels)};
-    parallel_for(h, 64, threads, [&](int begin, int end) {
-        for (int j = begin; j < end; ++j)
-            for (int i = 0; i < w; ++i) {
-                const int i1 = i + 1 == w ? 0 : i + 1;
-                const int j1 = j + 1 == h ? 0 : j + 1;
-                const float corners[4] = {field.texels(i, j), field.texels(i1, j), field.texels(i, j1), field.texels(i1, j1)};
-                for (int c = 0; c < Rule::channels; ++c) levels[0](i, j, c) = Rule::reach(corners, c);
+    Reach reach;
+    if constexpr (Cells::directional) {
+        reach.cells.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
+        reach.texels.resize(reach.cells.size());
+        const auto row = [&](std::vector<Octants>& of, int j) {
+            return of.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(w);
+        };
+        parallel_for(h, 64, threads, [&](int begin, int end) {
+            for (int j = begin; j < end; ++j) {
+                const float* low = field.texels.at(0, j);
+                const float* high = field.texels.at(0, j + 1 == h ? 0 : j + 1);
+                for (int i = 0; i < w; ++i) {
+                    const int i1 = i + 1 == w ? 0 : i + 1;
+                    row(reach.cells, j)[i] = Cells::octants(low[i], low[i1], high[i], high[i1]);
+                }
             }
-    });
-    while (levels.back().width > 1 || levels.back().height > 1 || static_cast<int>(levels.size()) <= leaf_level) {
-        const ImageF& from = levels.back();
-        ImageF to((from.width + 1) / 2, (from.height + 1) / 2, Rule::channels);
+        });
+        reach.levels.emplace_back(w, h, 4);
+        parallel_for(h, 64, threads, [&](int begin, int end) {
+            for (int j = begin; j < end; ++j) {
+                const Octants* below = row(reach.cells, j == 0 ? h - 1 : j - 1);
+                const Octants* above = row(reach.cells, j);
+                for (int i = 0; i < w; ++i) {
+                    const int i0 = i == 0 ? w - 1 : i - 1;
+                    const unsigned o = below[i0] | below[i] | above[i0] | above[i];
+                    row(reach.texels, j)[i] = static_cast<Octants>(o);
+                    const float height = field.texels(i, j);
+                    float* to = reach.levels[0].at(i, j);
+                    to[0] = (o & 0x03) != 0 ? height : -1.0f;
+                    to[1] = (o & 0x0c) != 0 ? height : -1.0f;
+                    to[2] = (o & 0xc0) != 0 ? height : -1.0f;
+                    to[3] = (o & 0x30) != 0 ? height : -1.0f;
+                }
+            }
+        });
+    } else {
+        reach.levels.push_back(field.texels);
+    }
+    while (reach.levels.back().width > 1 || reach.levels.back().height > 1 || static_cast<int>(reach.levels.size()) <= leaf_level) {
+        const ImageF& from = reach.levels.back();
+        ImageF to((from.width + 1) / 2, (from.height + 1) / 2, from.channels);
         parallel_for(to.height, 64, threads, [&](int begin, int end) {
             for (int j = begin; j < end; ++j)
                 for (int i = 0; i < to.width; ++i) {
                     const int i1 = std::min(2 * i + 1, from.width - 1);
                     const int j1 = std::min(2 * j + 1, from.height - 1);
-                    for (int c = 0; c < Rule::channels; ++c)
-                        to(i, j, c) = std::max(std::max(from(2 * i, 2 * j, c), from(i1, 2 * j, c)), std::max(from(2 * i, j1, c), from(i1, j1, c)));
+                    for (int c = 0; c < from.channels; ++c)
+                        to(i, j, c) = std::max(std::max(from(2 * i, 2 * j, c), from(i1, 2 * j, c)),
+                                               std::max(from(2 * i, j1, c), from(i1, j1, c)));
                 }
         });
-        levels.push_back(std::move(to));
+        reach.levels.push_back(std::move(to));
     }
-    return levels;
+    return reach;
 }
 
 // Rows of tiles to search.
 struct Rows {
     const HeightField& field;
-    const std::vector<ImageF>& levels;
+    const Reach& reach;
     int begin, end;
     ImageF& cones;
 };
 
-template <class Rule>
+template <class Cells>
 ImageF cones(const HeightField& field, int threads, const Progress& progress, std::string_view stage, void (*search)(const Rows&)) {
-    const std::vector<ImageF> levels = reaches<Rule>(field, threads);
+    const Reach reach = reach_of<Cells>(field, threads);
     ImageF result(field.width(), field.height(), 2);
-    parallel_for((field.height() + tile_h - 1) / tile_h, 1, threads,
-                 [&](int begin, int end) { search({field, levels, begin, end, result}); }, progress, stage);
+    parallel_for((field.height() + tile - 1) / tile, 1, threads,
+                 [&](int begin, int end) {
+                     search({field, reach, begin, end, result});
+                 },
+                 progress, stage);
     return result;
 }
 

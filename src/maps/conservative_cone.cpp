@@ -5,23 +5,21 @@
 namespace relievo::cone_search {
 
 struct ConservativeCells {
-    static constexpr int channels = 1;
+    static constexpr bool directional = false;
 
-    static float reach(const float* h, int) { return std::max(std::max(h[0], h[1]), std::max(h[2], h[3])); }
-
-    static double inside(const Cell& s, const Metric& m, double least) {
+    static double inside(const Cell& s, const Metric& m, double steeper_than) {
         const double d = s.h11 - s.h10 - s.h01 + s.h00;
-        if (!(d < 0)) return no_limit;
+        if (!(d < 0)) return 0;
         const double bx = s.h10 - s.h00;
         const double by = s.h01 - s.h00;
         if (s.x == 0 && s.y == 0) {
-            if (bx <= 0 || by <= 0) return no_limit;
+            if (bx <= 0 || by <= 0) return 0;
             const double gx = bx * m.width;
             const double gy = by * m.height;
-            return 1 / (gx * gx + gy * gy);
+            return gx * gx + gy * gy;
         }
         const double at_apex = s.h00 - s.x * bx - s.y * by + d * s.x * s.y;
-        if (!(at_apex < 0)) return no_limit;
+        if (!(at_apex < 0)) return 0;
         const double gx = (bx - d * s.y) * m.width;
         const double gy = (by - d * s.x) * m.height;
         const double twist = d * m.width * m.height;
@@ -29,12 +27,12 @@ struct ConservativeCells {
         const double k = 2 * std::sqrt(at_apex * twist);
         const double first_x = std::max(s.x / m.width, product * m.height / (s.y + 1));
         const double last_x = std::min((s.x + 1) / m.width, s.y > 0 ? product * m.height / s.y : 2.0);
-        if (!(first_x < last_x)) return no_limit;
+        if (!(first_x < last_x)) return 0;
         // On the arc the height is 2 C + gx X + gy Y, which is largest at one of its ends.
         const auto height = [&](double x) { return 2 * at_apex + gx * x + gy * product / x; };
         const double highest = std::max(height(first_x), height(last_x));
         const double nearest2 = first_x * first_x + (product / last_x) * (product / last_x);
-        if (!(highest > 0) || nearest2 >= least * highest * highest) return no_limit;
+        if (!(highest > 0) || nearest2 * steeper_than * slack >= highest * highest) return 0;
         const double root = std::sqrt(product);
         const double first = root / last_x;
         const double last = root / first_x;
@@ -44,12 +42,12 @@ struct ConservativeCells {
         const auto bends = [&](double w) { return (4 * k * w - 6 * gx) * w * w + 2 * gy; };
         const double turn = std::clamp(gx / k, first, last);
         const double low = falling_root(bends, first, turn);
-        if (!(rises(low) > 0)) return no_limit;
+        if (!(rises(low) > 0)) return 0;
         const double high = falling_root([&](double w) { return -bends(w); }, turn, last);
-        if (!(rises(high) < 0)) return no_limit;
+        if (!(rises(high) < 0)) return 0;
         const double w = falling_root(rises, low, high);
         const double slope = gx + gy * w * w - k * w;
-        return slope > 0 ? (1 + w * w * w * w) / (slope * slope) : no_limit;
+        return slope > 0 ? slope * slope / (1 + w * w * w * w) : 0;
     }
 };
 
@@ -61,7 +59,8 @@ struct ConservativeCells {
 namespace relievo {
 
 ImageF conservative_cone(const HeightField& field, int threads, const Progress& progress) {
-    return cone_search::cones<cone_search::ConservativeCells>(field, threads, progress, "conservative cone", RELIEVO_BEST_MACHINE(cone_search, search_conservative));
+    return cone_search::cones<cone_search::ConservativeCells>(field, threads, progress, "conservative cone",
+                                                              RELIEVO_BEST_MACHINE(cone_search, search_conservative));
 }
 
 }  // namespace relievo

@@ -77,7 +77,7 @@ constexpr MapKind table[] = {
         .channels = {{{"height", Rounding::up}, {"ratio", Rounding::down}}},
         .bake = [](MapSet& maps, const MapBake& b) { maps.conservative_cone = conservative_cone(maps.height, b.threads, b.progress); },
         .image = &MapSet::conservative_cone,
-        .cached_version = 1,
+        .cached_version = 2,
     },
     {
         .map = Map::relaxed_cone,
@@ -89,7 +89,7 @@ constexpr MapKind table[] = {
         .channels = {{{"height", Rounding::up}, {"ratio", Rounding::down}}},
         .bake = [](MapSet& maps, const MapBake& b) { maps.relaxed_cone = relaxed_cone(maps.height, b.threads, b.progress); },
         .image = &MapSet::relaxed_cone,
-        .cached_version = 1,
+        .cached_version = 2,
     },
     {
         .map = Map::robust_cone,

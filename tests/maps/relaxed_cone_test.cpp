@@ -53,16 +53,18 @@ TEST(RelaxedCone, CrestOfARidgeLimitsBothKinds) {
         ridge.texels(17, y) = 0.25f;
     }
     const ImageF relaxed = relaxed_cone(ridge);
-    for (int x = 0; x < 15; ++x) expect_ratio(relaxed, x, 2, std::min(16 - x, x - (16 - w)) / (0.8 * w) * (0.8 / static_cast<double>(0.8f)));
+    for (int x = 0; x < 15; ++x)
+        expect_ratio(relaxed, x, 2, std::min(16 - x, x - (16 - w)) / (0.8 * w) * (0.8 / static_cast<double>(0.8f)));
 }
 
-// The definition by its own words, on rays: from the axis of a cone, downward and outward, followed in small steps as far as the cone
-// reaches; none may leave the solid in it. That the cone is also the widest is asked of brute force below.
+// The definition by its own words, on rays: from the axis of a cone, downward and outward, followed in small steps as far as the
+// cone reaches; none may leave the solid in it. That the cone is also the widest is asked of brute force below.
 TEST(RelaxedCone, NoRayFromTheAxisLeavesTheSolidInside) {
     std::mt19937 random(9);
     const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };
     int entered = 0;
-    for (const HeightField& field : {test::smooth_field(40, 28, 3), test::random_field(12, 20, 4), test::terraced_field(16, 16, 5)}) {
+    for (const HeightField& field :
+         {test::smooth_field(40, 28, 3), test::random_field(12, 20, 4), test::terraced_field(16, 16, 5)}) {
         const ImageF cones = relaxed_cone(field);
         for (int n = 0; n < 3000; ++n) {
             const int x = static_cast<int>(uniform() * field.width());
@@ -90,8 +92,8 @@ TEST(RelaxedCone, NoRayFromTheAxisLeavesTheSolidInside) {
 TEST(RelaxedCone, EqualsBruteForceOverTheFallingSurface) {
     constexpr int sizes[][2] = {{1, 1}, {1, 2}, {2, 1}, {3, 3}, {1, 12}, {12, 1}, {7, 13}, {16, 16}, {17, 9}, {33, 5}};
     for (const auto& s : sizes)
-        for (const HeightField& field : {test::random_field(s[0], s[1], 1), test::terraced_field(s[0], s[1], 2), test::smooth_field(s[0], s[1], 3),
-                                         test::spike_field(s[0], s[1], s[0] / 3, s[1] / 2)}) {
+        for (const HeightField& field : {test::random_field(s[0], s[1], 1), test::terraced_field(s[0], s[1], 2),
+                                         test::smooth_field(s[0], s[1], 3), test::spike_field(s[0], s[1], s[0] / 3, s[1] / 2)}) {
             const ImageF cones = relaxed_cone(field);
             for (int y = 0; y < s[1]; ++y)
                 for (int x = 0; x < s[0]; ++x) {
@@ -101,6 +103,21 @@ TEST(RelaxedCone, EqualsBruteForceOverTheFallingSurface) {
                     ASSERT_LE(cones(x, y, 1), widest * (1 + 1e-9)) << s[0] << 'x' << s[1] << " at " << x << ' ' << y;
                     ASSERT_GE(cones(x, y, 1), narrowest * (1 - 3e-4)) << s[0] << 'x' << s[1] << " at " << x << ' ' << y;
                 }
+        }
+}
+
+// Plateaus many texels wide, whose level insides and convex corners fall nowhere: a cone is limited by their far rims alone.
+TEST(RelaxedCone, PlateausLimitByTheirFarRims) {
+    HeightField field = test::smooth_field(40, 24, 6);
+    for (float& h : field.texels.texels) h = std::floor(h * 6) / 5;
+    const ImageF cones = relaxed_cone(field);
+    for (int y = 0; y < 24; ++y)
+        for (int x = 0; x < 40; ++x) {
+            ASSERT_LE(cones(x, y, 1), test::surface_ratio(field, x, y, {.falling_only = true, .lines = 8}) * (1 + 1e-9))
+                << x << ' ' << y;
+            ASSERT_GE(cones(x, y, 1),
+                      test::surface_ratio(field, x, y, {.falling_only = true, .level = 0x1p-19, .lines = 8}) * (1 - 1e-3))
+                << x << ' ' << y;
         }
 }
 
@@ -120,14 +137,15 @@ TEST(RelaxedCone, NeverNarrowerThanTheConservativeCone) {
 TEST(RelaxedCone, SeamIsLikeAnyOtherPlace) {
     const int w = 30;
     const int h = 18;
-    const HeightField field = test::random_field(w, h, 4);
-    HeightField moved(w, h);
-    for (int y = 0; y < h; ++y)
-        for (int x = 0; x < w; ++x) moved.texels(x, y) = field.wrapped(x + 13, y - 7);
-    const ImageF a = relaxed_cone(field);
-    const ImageF b = relaxed_cone(moved);
-    for (int y = 0; y < h; ++y)
-        for (int x = 0; x < w; ++x) ASSERT_NEAR(b(x, y, 1), a(wrap_index(x + 13, w), wrap_index(y - 7, h), 1), 1e-6);
+    for (const HeightField& field : {test::random_field(w, h, 4), test::smooth_field(w, h, 4)}) {
+        HeightField moved(w, h);
+        for (int y = 0; y < h; ++y)
+            for (int x = 0; x < w; ++x) moved.texels(x, y) = field.wrapped(x + 13, y - 7);
+        const ImageF a = relaxed_cone(field);
+        const ImageF b = relaxed_cone(moved);
+        for (int y = 0; y < h; ++y)
+            for (int x = 0; x < w; ++x) ASSERT_EQ(b(x, y, 1), a(wrap_index(x + 13, w), wrap_index(y - 7, h), 1)) << x << ' ' << y;
+    }
 }
 
 TEST(RelaxedCone, DoesNotDependOnThreads) {
