@@ -1,8 +1,8 @@
 // Time of the exact cones of the bilinear surface on six kinds of field, against the plain way of finding the conservative ones: a scan
-// in growing rings of cells that stops once a ring is too far away to matter. The scan looks at corners and edges only and leaves
-// out the insides of cells, which favours it. Both use all cores and run in turn, A B A B; "ring_scan_over_ours" is the ratio of the
-// medians of the run. And the time of proving a map with the verifier, with the share of cones that it finds broken.
-#include "fields.h"
+// in growing rings of cells that stops once a ring is too far away to matter (against_rings.h). The scan looks at corners and edges only and
+// leaves out the insides of cells, which favours it. And the time of proving a map with the verifier, with the share of cones that it
+// finds broken.
+#include "against_rings.h"
 #include "maps/cone_map.h"
 #include "maps/cone_verifier.h"
 #include "maps/conservative_cone.h"
@@ -90,36 +90,22 @@ private:
     float q_ = 1;
 };
 
-ImageF ring_scan(const HeightField& field, bool falling) {
+void bake(benchmark::State& state, Baker baker, const std::string& map, Shape shape, const std::string& name, bool falling) {
+    const HeightField field = make(shape, 1024);
     const float highest = *std::ranges::max_element(field.texels.texels);
-    ImageF cones(field.width(), field.height(), 2);
-    parallel_for(field.height(), 4, 0, [&](int begin, int end) {
-        RingScan scan(field, falling);
-        for (int y = begin; y < end; ++y)
-            for (int x = 0; x < field.width(); ++x) {
-                cones(x, y, 0) = field.texels(x, y);
-                cones(x, y, 1) = scan.ratio(x, y, highest);
-            }
-    });
-    return cones;
-}
-
-void bake(benchmark::State& state, Baker baker, Shape shape, int size, bool falling, bool against_rings) {
-    const HeightField field = make(shape, size);
-    std::vector<double> ours;
-    std::vector<double> rings;
     ImageF result;
-    ImageF scanned;
-    for (auto _ : state) {
-        ours.push_back(seconds_of([&] { result = baker(field, 0, {}); }));
-        if (against_rings) rings.push_back(seconds_of([&] { scanned = ring_scan(field, falling); }));
-        state.SetIterationTime(ours.back());
-    }
-    state.counters["ours_ms_median"] = 1e3 * median(ours);
-    if (!against_rings) return;
-    state.counters["ring_scan_over_ours"] = median(rings) / median(ours);
-    for (std::size_t k = 1; k < result.texels.size(); k += 2)
-        if (result.texels[k] > scanned.texels[k] * 1.00001f) return state.SkipWithError("a cone is wider than the scan allows");
+    ImageF scanned(field.width(), field.height(), 1);
+    against_rings(
+        state, map, name, field.height(), [&] { result = baker(field, 0, {}); },
+        [&](int y) {
+            RingScan scan(field, falling);
+            for (int x = 0; x < field.width(); ++x) scanned(x, y) = scan.ratio(x, y, highest);
+        },
+        [&](int y) {
+            for (int x = 0; x < field.width(); ++x)
+                if (result(x, y, 1) > scanned(x, y) * 1.00001f) return false;
+            return true;
+        });
 }
 
 void prove(benchmark::State& state, Shape shape, const std::string& kind) {
@@ -139,11 +125,20 @@ void prove(benchmark::State& state, Shape shape, const std::string& kind) {
     state.counters["pairs"] = static_cast<double>(v.pairs);
 }
 
+#define BAKE(kind, name, falling) \
+    BENCHMARK_CAPTURE(bake, kind##_##name##_1024, kind##_cone, #kind, name, #name, falling)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(3)
+#define BAKES(kind, falling) \
+    BAKE(kind, fbm, falling); \
+    BAKE(kind, cobbles, falling); \
+    BAKE(kind, spikes, falling); \
+    BAKE(kind, flat, falling); \
+    BAKE(kind, steps, falling); \
+    BAKE(kind, grooves, falling); \
+    BENCHMARK_CAPTURE(mean_of_ratios, kind, #kind)->Iterations(1)
+BAKES(conservative, false);
+BAKES(relaxed, true);
+
 #define FIELD(name) \
-    BENCHMARK_CAPTURE(bake, conservative_##name##_1024, conservative_cone, name, 1024, false, false)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(3); \
-    BENCHMARK_CAPTURE(bake, relaxed_##name##_1024, relaxed_cone, name, 1024, true, false)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(3); \
-    BENCHMARK_CAPTURE(bake, conservative_##name##_256_against_rings, conservative_cone, name, 256, false, true)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(3); \
-    BENCHMARK_CAPTURE(bake, relaxed_##name##_256_against_rings, relaxed_cone, name, 256, true, true)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(3); \
     BENCHMARK_CAPTURE(prove, name##_conservative, name, "conservative")->UseRealTime()->Unit(benchmark::kMillisecond)->Iterations(1); \
     BENCHMARK_CAPTURE(prove, name##_relaxed, name, "relaxed")->UseRealTime()->Unit(benchmark::kMillisecond)->Iterations(1); \
     BENCHMARK_CAPTURE(prove, name##_sampled, name, "sampled")->UseRealTime()->Unit(benchmark::kMillisecond)->Iterations(1); \
