@@ -58,14 +58,15 @@ private:
         const auto c = field_.cell(x + i, y + j);
         const bool right = i >= 0;
         const bool up = j >= 0;
-        const float h00 = c[(right ? 0u : 1u) + (up ? 0u : 2u)] - apex_, h10 = c[(right ? 1u : 0u) + (up ? 0u : 2u)] - apex_;
-        const float h01 = c[(right ? 0u : 1u) + (up ? 2u : 0u)] - apex_, h11 = c[(right ? 1u : 0u) + (up ? 2u : 0u)] - apex_;
-        if (std::max(std::max(h00, h10), std::max(h01, h11)) <= 0) return;
+        // Steps between corners and not between heights relative to the texel's: those would be rounded, and their signs matter.
+        const float c00 = c[(right ? 0u : 1u) + (up ? 0u : 2u)], c10 = c[(right ? 1u : 0u) + (up ? 0u : 2u)];
+        const float c01 = c[(right ? 0u : 1u) + (up ? 2u : 0u)], c11 = c[(right ? 1u : 0u) + (up ? 2u : 0u)];
+        if (std::max(std::max(c00, c10), std::max(c01, c11)) <= apex_) return;
         const float px = static_cast<float>(right ? i : -1 - i);
         const float py = static_cast<float>(up ? j : -1 - j);
-        const float corner = px * (h10 - h00) + py * (h01 - h00);
-        edge(h00, h01, px * px * u2_, py, v2_, corner, px * (h11 - h01) + (py + 1) * (h01 - h00));
-        edge(h00, h10, py * py * v2_, px, u2_, corner, py * (h11 - h10) + (px + 1) * (h10 - h00));
+        const float corner = px * (c10 - c00) + py * (c01 - c00);
+        edge(c00 - apex_, c01 - apex_, px * px * u2_, py, v2_, corner, px * (c11 - c01) + (py + 1) * (c01 - c00));
+        edge(c00 - apex_, c10 - apex_, py * py * v2_, px, u2_, corner, py * (c11 - c10) + (px + 1) * (c10 - c00));
     }
 
     void edge(float h0, float h1, float e2, float along, float s2, float fall0, float fall1) {

@@ -76,6 +76,8 @@ public:
             }
         // Only texels less than `ring` away along both axes are below this; all their cells are near ones.
         const float distance = static_cast<float>(ring) - metric_.step;
+        const ImageF& top = levels_.back();
+        highest_ = *std::max_element(top.texels.begin(), top.texels.end());
         near2_ = distance * distance * std::min(metric_.u2, metric_.v2) * (1 - 0x1p-10f) - metric_.nearer;
     }
 
@@ -98,27 +100,17 @@ public:
                 if (x0 + column(g, l) >= width_ || y0 + row(g, l) >= height_) apex_[g][l] = 2.0f;
                 lowest_ = std::min(lowest_, apex_[g][l]);
             }
-            gather(g);
-            slope2_[g] = near_.steepest(around_, apex_[g], metric_);
-            bound_[g] = slope2_[g] * slack;
+            slope2_[g] = 1.0f + Lanes{};
         }
-        loosen();
-        kept_ = static_cast<int>(std::min<std::size_t>(steepened_, seed_count));
-        for (int k = 0; k < kept_; ++k) seeds_[k] = recent_[(steepened_ - 1 - static_cast<std::size_t>(k)) % seed_count];
-        steepened_ = 0;
-        for (int k = 0; k < kept_; ++k)
-            if (const unsigned open = may_limit(seeds_[k], all_groups)) block(seeds_[k], open);
-        loosen();
-        descend();
-        for (int g = 0; g < groups; ++g) near_insides(g);
+        if (highest_ > lowest_) search();
         for (int g = 0; g < groups; ++g)
             for (int l = 0; l < lane_count; ++l) {
                 const int x = x0 + column(g, l);
                 const int y = y0 + row(g, l);
                 if (x >= width_ || y >= height_) continue;
-                cones(x, y, 0) = apex_[g][l];
-                const float k2 = slope2_[g][l];
-                cones(x, y, 1) = k2 > 1.0f ? rounding_down / std::sqrt(k2) : 1.0f;
+                float* to = cones.at(x, y);
+                to[0] = apex_[g][l];
+                to[1] = slope2_[g][l] > 1.0f ? rounding_down / std::sqrt(slope2_[g][l]) : 1.0f;
             }
     }
 
@@ -131,6 +123,23 @@ private:
         int origin_x, origin_y;  // of the repeat it is taken from, texels
         unsigned groups;         // that it may limit
     };
+
+    void search() {
+        for (int g = 0; g < groups; ++g) {
+            gather(g);
+            slope2_[g] = near_.steepest(around_, apex_[g], metric_);
+            bound_[g] = slope2_[g] * slack;
+        }
+        loosen();
+        kept_ = static_cast<int>(std::min<std::size_t>(steepened_, seed_count));
+        for (int k = 0; k < kept_; ++k) seeds_[k] = recent_[(steepened_ - 1 - static_cast<std::size_t>(k)) % seed_count];
+        steepened_ = 0;
+        for (int k = 0; k < kept_; ++k)
+            if (const unsigned open = may_limit(seeds_[k], all_groups)) block(seeds_[k], open);
+        descend();
+        // Last, for they take longest, and most are beyond what is known by now.
+        for (int g = 0; g < groups; ++g) near_insides(g);
+    }
 
     // Heights at an offset from each texel of a group.
     Lanes around(int g, int dx, int dy) const {
@@ -371,6 +380,7 @@ private:
     Metric metric_;
     typename Rule::template Near<ring> near_;
     float near2_;
+    float highest_;  // of all that may limit a cone
     std::vector<Node> open_;
 
     // Blocks in which a cone of this tile got narrower, the latest ones, and what is taken over from the tile before. A row of
