@@ -23,6 +23,9 @@ constexpr int leaf_level = 2;  // blocks of 4x4 texels are taken texel by texel
 constexpr float slack = 1.0f - 0x1p-20f;
 // A found ratio is lowered by this share. Every quantity below carries at most some ten roundings of 2^-24.
 constexpr float rounding_down = 1.0f - 0x1p-20f;
+// No slope below this is looked for: ratios are at most 1. Slopes of 1 are, so that a cone of ratio 1 that the surface touches all along a
+// line is lowered like any other.
+constexpr float least_slope2 = 1.0f - 0x1p-20f;
 
 // A cell as one texel sees it, turned so that it lies in the quadrant of positive x and y: every cell lies wholly in one closed
 // quadrant of every texel centre. Heights are relative to the texel's, places in texels from it.
@@ -154,12 +157,17 @@ ImageF cones(const HeightField& field, int threads, const Progress& progress, st
     return result;
 }
 
-// Where f, positive before and negative after it, changes its sign in [low, high]; the nearer end if it does not. To 2^-30 of the
-// interval: the slopes looked for are level there, so that this is more than enough.
+// Where f, positive before and negative after it, changes its sign in [low, high], both above 0; the nearer end if it does not. First by
+// the exponent, for an end may be as far as 10^12, then to 2^-30 of what is left: the slopes looked for are level there, so that this is
+// more than enough.
 template <class Function>
 double falling_root(const Function& f, double low, double high) {
     if (!(f(low) > 0)) return low;
     if (!(f(high) < 0)) return high;
+    while (high > 4 * low) {
+        const double mid = std::sqrt(low * high);
+        (f(mid) > 0 ? low : high) = mid;
+    }
     for (int i = 0; i < 30; ++i) {
         const double mid = 0.5 * (low + high);
         (f(mid) > 0 ? low : high) = mid;

@@ -100,7 +100,7 @@ public:
                 if (x0 + column(g, l) >= width_ || y0 + row(g, l) >= height_) apex_[g][l] = 2.0f;
                 lowest_ = std::min(lowest_, apex_[g][l]);
             }
-            slope2_[g] = 1.0f + Lanes{};
+            slope2_[g] = least_slope2 + Lanes{};
         }
         if (highest_ > lowest_) search();
         for (int g = 0; g < groups; ++g)
@@ -110,7 +110,7 @@ public:
                 if (x >= width_ || y >= height_) continue;
                 float* to = cones.at(x, y);
                 to[0] = apex_[g][l];
-                to[1] = slope2_[g][l] > 1.0f ? rounding_down / std::sqrt(slope2_[g][l]) : 1.0f;
+                to[1] = slope2_[g][l] > least_slope2 ? std::min(1.0f, rounding_down / std::sqrt(slope2_[g][l])) : 1.0f;
             }
     }
 

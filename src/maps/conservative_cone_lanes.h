@@ -53,7 +53,7 @@ struct ConservativeRule : ConservativeCells {
         }
 
         Lanes steepest(const Lanes (&height)[size][size], Lanes apex, const Metric& m) const {
-            Lanes k2 = 1.0f + Lanes{};
+            Lanes k2 = least_slope2 + Lanes{};
             for (int j = 0; j < size; ++j)
                 for (int i = 0; i < size; ++i) {
                     const Lanes above = most(height[j][i] - apex, Lanes{});

@@ -77,7 +77,8 @@ struct RelaxedCells {
         const double b3 = cubic(last);
         const double b1 = b0 + third * derivative(first);
         const double b2 = b3 - third * derivative(last);
-        if (std::max(std::max(b0, b1), std::max(b2, b3)) <= 0 || std::min(std::min(b0, b1), std::min(b2, b3)) >= 0)
+        const double rounding = 0x1p-44 * (((std::abs(k3) * last + std::abs(k2)) * last + std::abs(k1)) * last + std::abs(k0));
+        if (std::max(std::max(b0, b1), std::max(b2, b3)) <= -rounding || std::min(std::min(b0, b1), std::min(b2, b3)) >= rounding)
             return steepest2;
         // Between the places where the cubic itself turns it has one root at most.
         double turns[4] = {first, last, last, last};

@@ -108,7 +108,7 @@ struct RelaxedRule : RelaxedCells {
         explicit Near(const Metric&) {}
 
         Lanes steepest(const Lanes (&height)[size][size], Lanes apex, const Metric& m) const {
-            Lanes k2 = 1.0f + Lanes{};
+            Lanes k2 = least_slope2 + Lanes{};
             for (int j = 0; j + 1 < size; ++j)
                 for (int i = 0; i + 1 < size; ++i)
                     edges({height[j][i], height[j][i + 1], height[j + 1][i], height[j + 1][i + 1]},

@@ -41,6 +41,19 @@ TEST(ConservativeCone, StepIsLimitedByTheTopOfItsRamp) {
     for (int x = 8; x < 16; ++x) EXPECT_EQ(cones(x, 1, 1), 1.0f);
 }
 
+// A slope of 1 exactly, all along an edge: the cone would touch it everywhere, and is lowered like any other.
+TEST(ConservativeCone, SlopeOfOneIsLoweredToo) {
+    HeightField ramp(16, 4);
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 16; ++x) ramp.texels(x, y) = static_cast<float>(std::min(x, 16 - x)) / 16;
+    const ImageF cones = conservative_cone(ramp);
+    for (int x = 1; x < 8; ++x) {
+        EXPECT_LT(cones(x, 1, 1), 1.0f);
+        EXPECT_GE(cones(x, 1, 1), 1 - lowered);
+    }
+    EXPECT_EQ(cones(8, 1, 1), 1.0f);
+}
+
 // Two corners at height 1 across a cell: beside texel (4, 4) the surface rises by (1, 1) per texel, steeper than along its edges.
 TEST(ConservativeCone, GradientAtTheTexelItselfBinds) {
     constexpr int n = 16;

@@ -57,6 +57,26 @@ TEST(RelaxedCone, CrestOfARidgeLimitsBothKinds) {
         expect_ratio(relaxed, x, 2, std::min(16 - x, x - (16 - w)) / (0.8 * w) * (0.8 / static_cast<double>(0.8f)));
 }
 
+// A crest inside a cell, along a row: with a the height of both corners at X = 0, b the step of the near edge and -D the twist, the height is
+// a + X (b + D) - D X Y, which falls outward beyond Y = (b + D) / 2D. Along that line it is a + X (b + D) / 2, and steepest where
+// the slope is sqrt(a^2 / Y^2 + (b + D)^2 / 4), at X = Y^2 (b + D) / 2a. The arc of the crest begins at X = 0, where Y / X has no bound.
+TEST(RelaxedCone, CrestAlongARowBindsInsideItsCell) {
+    constexpr int n = 16;
+    HeightField crest(n, n);
+    crest.texels(4, 5) = 0.38f;
+    crest.texels(4, 6) = 0.38f;
+    crest.texels(3, 5) = 0.506f;
+    crest.texels(3, 6) = 0.386f;
+    const double a = crest.texels(4, 5);
+    const double b = crest.texels(3, 5) - a;
+    const double twist = b - (crest.texels(3, 6) - a);
+    const double y = (b + twist) / (2 * twist);
+    ASSERT_TRUE(y > 1 && y < 1.1);
+    const double slope = std::hypot(a / y, (b + twist) / 2);
+    ASSERT_GT(slope, 1.01 * a);
+    expect_ratio(relaxed_cone(crest), 4, 4, 1 / (slope * n));
+}
+
 // The definition by its own words, on rays: from the axis of a cone, downward and outward, followed in small steps as far as the
 // cone reaches; none may leave the solid in it. That the cone is also the widest is asked of brute force below.
 TEST(RelaxedCone, NoRayFromTheAxisLeavesTheSolidInside) {
