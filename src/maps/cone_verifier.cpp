@@ -194,6 +194,8 @@ private:
         const double steepest = std::hypot(std::max(gx, 0.0), std::max(gy, 0.0));
         const double excess = cone_.ratio * (steepest + std::max(twist, 0.0) * x * y / reach) - 1;
         if (excess * reach + cone_.ratio * std::min(above, 0.0) <= -margin * reach) return Verdict::kept;
+        // Where the surface is twisted upward its slope from the apex grows along every ray, so that the far sides decide.
+        if (twist > 0 && outside(x, y, gx * x, gy + twist * x) && outside(y, x, gy * y, gx + twist * y)) return Verdict::kept;
         if (relaxed_) {
             // Falling, gx X + gy Y + 2 twist X Y < 0, and above the apex, gx X + gy Y + twist X Y > 0: only where twist < 0, and by less
             // than |twist| X Y.
@@ -216,6 +218,18 @@ private:
             if (p != Verdict::kept) verdict = p;
         }
         return verdict;
+    }
+
+    // Whether a side at distance `across` from the apex, from its foot to `along`, and of height a + b t over the apex, lies outside the
+    // cone: |(across, t)| - c b t is convex, and least, across sqrt(1 - (c b)^2), where t = across c b / sqrt(1 - (c b)^2), or at the
+    // nearer end.
+    bool outside(double across, double along, double a, double b) const {
+        const double cb = cone_.ratio * b;
+        const double root = cb < 1 ? std::sqrt((1 - cb) * (1 + std::max(cb, 0.0))) : 0.0;
+        double least = across * root;
+        if (cb <= 0) least = across;
+        else if (across * cb >= along * root) least = std::hypot(across, along) - cb * along;
+        return least - cone_.ratio * a >= margin;
     }
 
     // The part [u0, u1] x [v0, v1] of the cell, not containing the apex.
@@ -342,7 +356,7 @@ Verification verify_cones(const HeightField& field, std::span<const ConeApex> co
 
 std::vector<ConeApex> texel_cones(const ImageF& map) {
     std::vector<ConeApex> cones;
-    cones.reserve(map.texels.size() / 2);
+    cones.reserve(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
     for (int j = 0; j < map.height; ++j)
         for (int i = 0; i < map.width; ++i) cones.push_back({static_cast<double>(i), static_cast<double>(j), map(i, j, 0), map(i, j, 1)});
     return cones;

@@ -42,7 +42,7 @@ struct Verification {
 Verification verify_cones(const HeightField& field, std::span<const ConeApex> cones, ConePromise promise, int threads = 0,
                           const Progress& progress = {});
 
-// The cones of a map of height and ratio, at its texels' centres.
+// The cones of a map whose first channels are height and ratio, at its texels' centres.
 std::vector<ConeApex> texel_cones(const ImageF& map);
 
 // One cone for each texel of a map, at a random place of the texel's square and on the surface there, with the texel's ratio: what a

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/map_set.h"
+#include "maps/cell_cone_verifier.h"
 #include "maps/map_kinds.h"
 #include "maps/pyramid_verifier.h"
 #include "maps/quick_cone.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace relievo {
 
@@ -34,6 +36,13 @@ Verification of_pyramid(const Context& c) {
     return {.cones = p.nodes, .pairs = p.cells, .checks = p.checks, .violated = p.violated};
 }
 
+// A device holds them in 8 bits (maps/cell_cone.h).
+Verification of_cell_cones(const Context& c) {
+    ImageF stored = c.maps.cell_cone;
+    for (float& v : stored.texels) v = std::round(v * 255.0f) / 255.0f;
+    return verify_cell_cone(c.maps.height, stored, c.threads);
+}
+
 // Ours first; the published definitions in the order of their years.
 struct Row {
     std::string_view id, claim, source;
@@ -47,6 +56,8 @@ constexpr Row rows[] = {
      [](const Context& c) { return at_texels(c, c.maps.conservative_cone, ConePromise::conservative); }},
     {"relaxed_cone", "no ray leaves the solid in a cone", "ours", true, Map::relaxed_cone,
      [](const Context& c) { return at_texels(c, c.maps.relaxed_cone, ConePromise::relaxed); }},
+    {"cell_cone", "no terrace lies below the surface", "ours", true, Map::cell_cone,
+     of_cell_cones},
     {"cone", "the surface enters no cone", "Dummer 2006", false, Map::cone,
      [](const Context& c) { return at_texels(c, c.maps.cone, ConePromise::conservative); }},
     {"quick_cone", "the surface enters no cone", "Valasek 2022", false, std::nullopt,

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/map_set.h"
+#include "maps/cell_cone_verifier.h"
 #include "maps/fields.h"
 
 #include <gtest/gtest.h>
@@ -78,6 +79,24 @@ TEST(CellCone, DoesNotDependOnThreads) {
     const ImageF one = cell_cone_map(field, 1);
     EXPECT_EQ(one.texels, cell_cone_map(field, 2).texels);
     EXPECT_EQ(one.texels, cell_cone_map(field, 7).texels);
+}
+
+TEST(CellCone, IsProvenAndALoweredValueIsFound) {
+    for (const auto& [w, h] : {std::pair{1, 1}, {16, 16}, {21, 10}, {70, 43}}) {
+        const HeightField field = test::smooth_field(w, h, 3);
+        ImageF map = cell_cone_map(field);
+        const Verification kept = verify_cell_cone(field, map);
+        EXPECT_EQ(kept.violated, 0u);
+        EXPECT_EQ(kept.cones, map.texels.size());
+        EXPECT_EQ(kept.pairs, static_cast<std::uint64_t>(4 * w * h) * (1 + 3 * 3 + 9 * 9 + 33 * 33));
+        for (std::size_t k = 0; k < map.texels.size(); k += 7) {
+            map.texels[k] -= 1.0f / 255;
+            EXPECT_EQ(verify_cell_cone(field, map).violated, 1u) << k;
+            map.texels[k] += 1.0f / 255;
+            if (k > 700) break;
+        }
+    }
+    EXPECT_THROW(verify_cell_cone(HeightField(4, 4), cell_cone_map(HeightField(5, 4))), Error);
 }
 
 TEST(CellCone, ReportsProgressAndStopsWhenCancelled) {

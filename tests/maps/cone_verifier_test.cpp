@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+
 namespace relievo {
 namespace {
 
@@ -55,6 +56,26 @@ TEST(ConeVerifier, FindsPlantedViolations) {
                     const Verification narrower = verify_cones(field, {&cone, 1}, promise);
                     ASSERT_EQ(narrower.violated + narrower.undecided, 0u) << x << ' ' << y;
                 }
+}
+
+// An edge as steep as the cone, to 2^-20, from the apex on, and cells twisted upward on both sides of it: the cone all but touches along a line.
+TEST(ConeVerifier, DecidesConesThatTouchAlongAnEdge) {
+    HeightField field(32, 32);
+    for (int j = 0; j < 32; ++j)
+        for (int i = 0; i < 32; ++i) {
+            const double x = i % 8;
+            const double y = std::abs(j % 8 - 4);
+            field.texels(i, j) = static_cast<float>(0.25 + 0.046875 * x - 0.03125 * y + 0.001953125 * x * y);
+        }
+    for (const int i : {4, 5}) {
+        const double h = field.texels(i, 4);
+        ConeApex cone{static_cast<double>(i), 4, h, (1 - 0x1p-20) / (32 * (field.texels(i + 1, 4) - h))};
+        const Verification kept = verify_cones(field, {&cone, 1}, ConePromise::conservative);
+        EXPECT_EQ(kept.violated + kept.undecided, 0u) << i;
+        EXPECT_LT(kept.checks, 20000u) << i;
+        cone.ratio *= 1 + 0x1p-18;
+        EXPECT_EQ(verify_cones(field, {&cone, 1}, ConePromise::conservative).violated, 1u) << i;
+    }
 }
 
 // The verifier against plain sampling, from apexes anywhere on the surface: whatever a sample breaks it calls broken.
