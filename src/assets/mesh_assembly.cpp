@@ -180,7 +180,9 @@ void finish_mesh(Mesh& mesh, MeshFaults faults, const std::string& file, int thr
     if (!all_finite) drop_non_finite_vertices(mesh, faults);
     if (!all_distinct) drop_repeating_faces(mesh, faults);
     for_blocks(mesh.normals.size(), threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) mesh.normals[i] = unit(mesh.normals[i]);
+        // Most are unit vectors already and need neither the wider numbers nor to be written.
+        for (std::size_t i = begin; i < end; ++i)
+            if (!(std::abs(dot(mesh.normals[i], mesh.normals[i]) - 1.0f) < 1e-6f)) mesh.normals[i] = unit(mesh.normals[i]);
     });
     for (Vec2f& uv : mesh.uvs)
         if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) uv = Vec2f(0.0f);

@@ -174,9 +174,16 @@ Mesh parse_mesh_cache(std::string_view bytes, const std::string& file, int threa
         for (int part = begin; part < end; ++part) {
             if (part == 0) {
                 copy_out(bytes, layout.indices, header.indices, mesh.indices);
-                std::uint32_t highest = 0;
-                for (const std::uint32_t i : mesh.indices) highest = std::max(highest, i);
-                in_range = mesh.indices.empty() || highest < header.vertices;
+                // Below 2^31 vertices the highest bit of a difference tells: a sum of bits, which vectors of any machine can do.
+                const auto last = static_cast<std::uint32_t>(header.vertices - 1);
+                std::uint32_t below = 0, too_large = 0;
+                for (const std::uint32_t i : mesh.indices) {
+                    below |= last - i;
+                    too_large |= i;
+                }
+                in_range = header.vertices > 0 && ((below | too_large) >> 31) == 0;
+                if (!in_range && header.vertices > (std::uint64_t{1} << 31)) in_range = std::ranges::all_of(mesh.indices, [&](std::uint32_t i) { return i < header.vertices; });
+                in_range = in_range || mesh.indices.empty();
                 continue;
             }
             copy_out(bytes, layout.positions, header.vertices, mesh.positions);
