@@ -54,6 +54,13 @@ double rounded(double v) { return std::round(v * 1e4) / 1e4; }
 Json number(double v) { return std::isfinite(v) ? Json(rounded(v)) : Json(); }
 
 Json fur_json(const FurPicture& p, const std::string& preset, const std::string& out) {
+    Json report = {{"device", p.device}, {"prepare_ms", rounded(p.ms.prepare)}, {"grid_ms", rounded(p.ms.grid)}, {"layer_faces", p.layer_faces}, {"passes", p.passes}, {"notes", p.notes}};
+    if (p.score)
+        report["reference"] = {{"flip", rounded(p.score->flip)},
+                               {"coverage_error", rounded(p.score->coverage_error)},
+                               {"gaps", rounded(p.score->gaps)},
+                               {"samples", p.score->samples},
+                               {"ms", rounded(p.score->reference_ms)}};
     return {{"mode", "strands"},
             {"preset", preset},
             {"faces", p.faces},
@@ -64,8 +71,7 @@ Json fur_json(const FurPicture& p, const std::string& preset, const std::string&
             {"ms",
              {{"load", rounded(p.ms.load)}, {"roots", rounded(p.ms.roots)}, {"first_frame", rounded(p.ms.first_frame)}, {"frame_median", rounded(p.ms.frame_median)}}},
             {"image", out.empty() ? Json() : Json(out)},
-            {"report",
-             {{"device", p.device}, {"prepare_ms", rounded(p.ms.prepare)}, {"grid_ms", rounded(p.ms.grid)}, {"layer_faces", p.layer_faces}, {"passes", p.passes}, {"notes", p.notes}}}};
+            {"report", report}};
 }
 
 std::string preset_list() {
@@ -88,10 +94,11 @@ std::string knob_list() {
 
 void add_fur_command(CLI::App& app) {
     struct Options {
-        std::string in, out, mode = "strands", preset, layers = "auto", device;
+        std::string in, out, reference, mode = "strands", preset, layers = "auto", device;
         std::vector<std::string> set;
         double height = 0, density = 100;
         std::vector<int> size{1280, 800};
+        int samples = 16;
         FurSettings fur;
         bool json = false, quiet = false;
     };
@@ -108,16 +115,19 @@ void add_fur_command(CLI::App& app) {
     verb->add_option("--passes", o->fur.passes, "frames averaged into the picture, each with its samples elsewhere")->check(CLI::Range(1, 1024))->capture_default_str();
     verb->add_option("--device", o->device, "that draws: software, or part of a device's name (relievo list devices)");
     verb->add_option("--threads", o->fur.threads, "0: all cores")->check(CLI::Range(0, 1024))->capture_default_str();
+    verb->add_option("--reference", o->reference, "FILE.png: beside the picture the same strands as curves, ray traced with shadows; --json then has the difference");
+    verb->add_option("--samples", o->samples, "rays a pixel of the reference")->check(CLI::Range(1, 4096))->capture_default_str();
     verb->add_flag("--quiet", o->quiet, "no progress and no notes");
     verb->add_flag("--json", o->json, "print what was grown, how even it is and how long it took as JSON");
     verb->add_option("--out", o->out, "FILE.png");
     verb->footer("Examples:\n  relievo fur bunny.obj --out bunny.png\n"
                  "  relievo fur dragon.ply.gz --preset fox --out dragon.png --json\n"
                  "  relievo fur scan.stl --preset otter --height 4 --density 150 --set lock=0.4 --out wet.png\n"
+                 "  relievo fur bunny.obj --size 640 400 --reference beside.png --samples 32 --json\n"
                  "  relievo fur cow.obj --layers 32 --size 640 400 --passes 1 --out quick.png\n\n" +
                  knob_list());
     verb->callback([o] {
-        if (o->out.empty() && !o->json) throw UsageError("fur needs --out FILE.png for the picture, or --json to measure without one");
+        if (o->out.empty() && o->reference.empty() && !o->json) throw UsageError("fur needs --out FILE.png for the picture, or --json to measure without one");
         FurSettings& s = o->fur;
         const CoatPreset& preset = preset_of(o->preset);
         s.coat = preset.coat;
@@ -134,8 +144,10 @@ void add_fur_command(CLI::App& app) {
         if (s.width < 16 || s.height < 16 || s.width > 16384 || s.height > 16384) throw UsageError("--size takes 16 to 16384 pixels a side");
         s.device = o->device;
         s.measure = o->json;
+        if (!o->reference.empty()) s.reference_samples = o->samples;
         const FurPicture p = fur_picture(o->in, s, progress_display(o->quiet));
-        if (!o->out.empty()) write_fur_picture(o->out, p);
+        if (!o->out.empty()) write_fur_picture(o->out, p.picture);
+        if (!o->reference.empty()) write_fur_picture(o->reference, p.beside);
         if (!o->quiet)
             for (const std::string& note : p.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
         if (o->json)

@@ -31,6 +31,9 @@ struct Coat {
     float guard_hairs = 0.1f;        // share of strands that are 1.6 times as thick and of full length
 };
 
+// The angle from the normal at which fully combed strands stand in the mean, radians.
+constexpr float mean_lean(const Coat& coat) { return coat.tilt + coat.bend / 2; }
+
 struct CoatPreset {
     std::string_view id;
     std::string_view summary;

@@ -1,7 +1,9 @@
 #include "fur/comb.h"
 
 #include "core/parallel_for.h"
+#include "mesh/equal_vertices.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -28,7 +30,7 @@ Vec3f tailward(const Mesh& mesh) {
 
 }  // namespace
 
-std::vector<Vec3f> combed(const Mesh& mesh, int threads) {
+std::vector<Vec3f> combed(const Mesh& mesh, float lean, int threads) {
     assert(mesh.normals.size() == mesh.positions.size());
     const Vec3f flow = normalize(tailward(mesh) * 0.8f + Vec3f(0, -0.6f, 0));
     std::vector<Vec3f> combs(mesh.positions.size());
@@ -40,6 +42,21 @@ std::vector<Vec3f> combed(const Mesh& mesh, int threads) {
             combs[v] = l > 0.5f ? d / l : d * 2.0f;
         }
     });
+    if (!(lean > 0)) return combs;
+    // How far the normal of each place is from those of the faces there.
+    const std::vector<std::uint32_t> place = first_equal_vertex(mesh, Compared::positions, threads);
+    std::vector<float> cosine(mesh.positions.size(), 1);
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const Vec3f a = mesh.positions[mesh.indices[i]], n = cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a);
+        const float size = length(n);
+        if (!(size > 0)) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t v = mesh.indices[i + k];
+            cosine[place[v]] = std::min(cosine[place[v]], dot(n, mesh.normals[v]) / size);
+        }
+    }
+    constexpr float flat = 1.48f;  // 85 degrees: strands that lay in a face would flicker with it
+    for (std::size_t v = 0; v < combs.size(); ++v) combs[v] *= std::clamp((flat - std::acos(std::clamp(cosine[place[v]], -1.0f, 1.0f))) / lean, 0.0f, 1.0f);
     return combs;
 }
 

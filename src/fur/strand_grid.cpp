@@ -13,7 +13,7 @@ namespace relievo {
 namespace {
 
 // In radii of the ball that holds what a point may find. Wider cells list more roots than are near, narrower ones repeat each in more lists.
-constexpr float cell_width = 1;
+constexpr float cell_width = 1.25f;
 
 }  // namespace
 

@@ -21,6 +21,7 @@ struct FurSettings {
     int passes = 16;        // averaged into the picture
     std::string device;
     bool measure = false;   // how even the strands are
+    int reference_samples = 0;  // rays a pixel of a picture of the same strands as curves, to compare with; 0: none
     int threads = 0;
 };
 
@@ -28,19 +29,30 @@ struct FurTimes {  // milliseconds
     double load = 0, prepare = 0, roots = 0, grid = 0, first_frame = 0, frame_median = 0;
 };
 
+// The picture against the traced one.
+struct FurScore {
+    double flip = 0;             // mean LDR-FLIP, backdrop included
+    double coverage_error = 0;   // mean difference of coverage, over the pixels where either has any
+    double gaps = 0;             // share of the pixels more than half covered in the reference that are less than a quarter covered
+    double reference_ms = 0;
+    int samples = 0;
+};
+
 struct FurPicture {
     std::size_t faces = 0, strands = 0;
     int layers = 0, passes = 0;
     std::size_t layer_faces = 0;  // of the mesh that was pushed out
     std::optional<Evenness> evenness;
+    std::optional<FurScore> score;
     FurTimes ms;  // first_frame: from the loaded mesh to the first whole picture in memory, all steps in between included
     std::string device;
     Image8 picture;  // sRGB, rows top to bottom
+    Image8 beside;   // the same and the reference to its right, where there is one
     std::vector<std::string> notes;
 };
 
 // Throws Error.
-void write_fur_picture(const std::filesystem::path& png, const FurPicture& picture);
+void write_fur_picture(const std::filesystem::path& png, const Image8& picture);
 FurPicture fur_picture(const std::filesystem::path& mesh, const FurSettings& settings, const Progress& progress = {});
 
 }  // namespace relievo

@@ -230,8 +230,10 @@ struct FurRenderer::State {
         coat.bricks_x = model.grid->size[0];
         coat.bricks_y = model.grid->size[1];
         coat.bricks_z = model.grid->size[2];
-        // Strands stop what they cover; what they scatter onward is most of it again.
-        coat.extinction = 0.3f * 2 * coat.width / (model.spacing * model.spacing);
+        // Strands per area times the width they have on the whole way to the longest tip. Each takes 0.3 of an optical depth: what it covers,
+        // less what it scatters onward.
+        const float mean_width = 2 * coat.width * (0.5f + 0.3f * c.taper) * (1 - 0.5f * c.length_variation) * (1 + 0.6f * c.guard_hairs);
+        coat.extinction = 0.3f * mean_width / (model.spacing * model.spacing);
         coat.root_r = c.root_colour.x;
         coat.root_g = c.root_colour.y;
         coat.root_b = c.root_colour.z;

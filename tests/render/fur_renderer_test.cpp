@@ -23,7 +23,7 @@ protected:
         renderer = std::make_unique<FurRenderer>("", true);
         mesh = made_up_scan({.faces = 2000, .relief = 0, .noise = 0});
         mesh.normals = continuous_normals(mesh, NormalMode::angle);
-        comb = combed(mesh);
+        comb = combed(mesh, 0);
     }
     void TearDown() override {
         if (!renderer) return;
@@ -106,7 +106,7 @@ TEST_F(FurOnGpu, GrowsOnASingleFace) {
     mesh.positions = {{-1, -0.5f, 0}, {1, -0.5f, 0}, {0, 1, 0}};
     mesh.indices = {0, 1, 2};
     mesh.normals = continuous_normals(mesh, NormalMode::angle);
-    comb = combed(mesh);
+    comb = combed(mesh, 0);
     FurView view{.camera = view_of_sphere({0, 0, 0}, 1.25, 160, 120), .layers = 6, .passes = 1};
     const FurFrames f = draw(upright, view);
     EXPECT_GT(std::ranges::count_if(f.coverage.texels, [](float c) { return c > 0; }), 1000);
