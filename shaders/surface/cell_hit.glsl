@@ -7,7 +7,8 @@
 #include "cell_position.glsl"
 
 struct CellRay {
-    vec2 corner;     // UV of the texel that is the first corner of the cell in which the ray starts, in [0,1)
+    ivec2 cell;      // in which the ray starts, inside one period
+    vec2 corner;     // UV of the texel that is its first corner
     vec2 uv_per_cell;
     ivec2 turn;      // 1, or -1 along an axis that the ray goes down
     vec2 offset;     // the start in the first cell, turned; within 1 of [0,1)
@@ -38,8 +39,8 @@ CellRay cell_ray(SurfaceRay ray, ivec2 size) {
     // Moved into one period as whole cells, so that places stay well inside their texels however far the ray starts from the origin.
     r.turn = ivec2(ray.uv_per_height.x > 0.0f ? -1 : 1, ray.uv_per_height.y > 0.0f ? -1 : 1);
     r.uv_per_cell = vec2(float(r.turn.x) / texels.x, float(r.turn.y) / texels.y);
-    r.corner = vec2((float(x.cell - size.x * int(floor(float(x.cell) / texels.x))) + 0.5f) / texels.x,
-                    (float(y.cell - size.y * int(floor(float(y.cell) / texels.y))) + 0.5f) / texels.y);
+    r.cell = ivec2(x.cell - size.x * int(floor(float(x.cell) / texels.x)), y.cell - size.y * int(floor(float(y.cell) / texels.y)));
+    r.corner = vec2((float(r.cell.x) + 0.5f) / texels.x, (float(r.cell.y) + 0.5f) / texels.y);
     r.offset = vec2(r.turn.x < 0 ? 1.0f - x.inside : x.inside, r.turn.y < 0 ? 1.0f - y.inside : y.inside);
     r.pace = vec2(uv_pace.x * texels.x, uv_pace.y * texels.y);
     r.pace_high = vec2(leading_digits(r.pace.x), leading_digits(r.pace.y));

@@ -2,133 +2,86 @@
 // solve the bilinear patch in each cell it may touch. The declared surface's first hit, up to float rounding, whatever the
 // field; one fetch a node. Costs more the more grazing the ray and the spikier the field, never correctness, unless max_steps
 // ends the walk.
-#include "../../surface/bilinear_patch.glsl"
-#include "../../surface/cell_position.glsl"
+#include "../../surface/cell_hit.glsl"
 #include "../../surface/maps.glsl"
 #include "../../surface/ray_entry.glsl"
 
+// A cell's index along one axis of the map, of `cells` from the first along the way. The quotient is taken at the cell's middle, where its
+// rounding does not count; an integer remainder would cost more than a fetch.
+int index_in_period(int first, int turn, float cells, int size) {
+    int i = first + turn * int(cells);
+    return i - size * int(floor((float(i) + 0.5f) / float(size)));
+}
+
+// Cells from this one to the node's far wall, along the way; the last node of a period may be cut short.
+float cells_to_wall(int index, int turn, int level, int size) {
+    int node = index >> level;
+    return float(turn > 0 ? min((node + 1) << level, size) - index : index - (node << level) + 1);
+}
+
 SurfaceHit max_mip_tracing(SurfaceRay ray, MarchParams params) {
     ivec2 size = height_size();
-    vec2 speed = vec2(-ray.uv_per_height.x * float(size.x), -ray.uv_per_height.y * float(size.y));  // cells per unit of descent
-
-    // The cell is kept in integers and the position relative to the first cell, so that rounding never loses a cell and does
-    // not grow with the distance from the texture's origin.
-    CellPosition start_x = cell_position(ray.uv.x, ray.uv_per_height.x, ray.zero_level - ray.z_start, size.x);
-    CellPosition start_y = cell_position(ray.uv.y, ray.uv_per_height.y, ray.zero_level - ray.z_start, size.y);
-    ivec2 origin = ivec2(start_x.cell, start_y.cell);
-    vec2 offset = vec2(start_x.inside, start_y.inside);
-    ivec2 cell = ivec2(int(floor(offset.x)), int(floor(offset.y)));  // relative to origin
+    CellRay r = cell_ray(ray, size);
+    vec2 first_wall = vec2((1.0f - r.offset.x) * r.rise.x, (1.0f - r.offset.y) * r.rise.y);
 
     // Skips are biased by a few units in the last place of a height near 1: a node within that of the ray is opened.
-    float margin = 4e-7f;
-    float never = 1e30f;
+    float above = ray.z_start - 4e-7f;  // descents to a height are taken from here
     float descent_end = ray.z_start - ray.z_end;
-    float descent = 0.0f;
     // Nodes much longer than the ray's whole way hardly ever lie below it: begin, and stay, where a node holds at least an
     // eighth of the way. Against starting at the top this saves 5 to 20 % of the fetches.
-    float way = max(abs(speed.x), abs(speed.y)) * descent_end;
+    float way = max(r.pace.x, r.pace.y) * descent_end;
     int top = 0;
     while (top < max_levels() - 1 && float(8 << top) < way) ++top;
     int level = top;
 
+    vec2 cell = floor(r.offset);
+    float descent = 0.0f;
+    int fetches = 0;
     SurfaceHit hit;
     hit.found = false;
     hit.height = ray.z_end;
-    bool inside = true;
-    for (int i = 0; i < params.max_steps && inside && !hit.found; ++i) {
-        // The node of this level that holds the cell, in one period, and its walls relative to origin.
-        ivec2 wrapped = ivec2((origin.x + cell.x) % size.x, (origin.y + cell.y) % size.y);
-        if (wrapped.x < 0) wrapped.x += size.x;
-        if (wrapped.y < 0) wrapped.y += size.y;
-        ivec2 node = ivec2(wrapped.x >> level, wrapped.y >> level);
-        ivec2 low = ivec2(cell.x - wrapped.x + (node.x << level), cell.y - wrapped.y + (node.y << level));
-        ivec2 high = ivec2(min(low.x + (1 << level), cell.x - wrapped.x + size.x),
-                           min(low.y + (1 << level), cell.y - wrapped.y + size.y));
+    do {
+        ivec2 index = ivec2(index_in_period(r.cell.x, r.turn.x, cell.x, size.x), index_in_period(r.cell.y, r.turn.y, cell.y, size.y));
+        vec2 span = vec2(cells_to_wall(index.x, r.turn.x, level, size.x), cells_to_wall(index.y, r.turn.y, level, size.y));
+        vec2 wall = vec2((cell.x + span.x - 1.0f) * r.rise.x + first_wall.x, (cell.y + span.y - 1.0f) * r.rise.y + first_wall.y);
+        float leave = min(wall.x, wall.y);
 
-        float exit_x = never;
-        float exit_y = never;
-        if (speed.x > 0.0f) exit_x = (float(high.x) - offset.x) / speed.x;
-        if (speed.x < 0.0f) exit_x = (float(low.x) - offset.x) / speed.x;
-        if (speed.y > 0.0f) exit_y = (float(high.y) - offset.y) / speed.y;
-        if (speed.y < 0.0f) exit_y = (float(low.y) - offset.y) / speed.y;
-        float leave = max(min(exit_x, exit_y), descent);
-        float z_leave = ray.z_start - min(leave, descent_end);
-
+        ++fetches;
         vec4 corners = vec4(0.0f);
-        float top_of_node = 0.0f;
+        float highest = 0.0f;
         if (level == 0) {
-            corners = height_cell(vec2((float(wrapped.x) + 1.0f) / float(size.x), (float(wrapped.y) + 1.0f) / float(size.y)));
-            top_of_node = max(max(corners.x, corners.y), max(corners.z, corners.w));
+            corners = height_cell(cell_middle(r, cell));
+            highest = max(max(corners.x, corners.y), max(corners.z, corners.w));
         } else {
-            top_of_node = max_at(node, level);
+            highest = max_at(ivec2(index.x >> level, index.y >> level), level);
+        }
+        bool clear = above - min(leave, descent_end) > highest;
+        bool open = !clear && level > 0;
+        if (!clear && level == 0) {
+            float z = cell_hit(ray, r, corners, cell, descent);
+            if (z >= 0.0f) {
+                hit.found = true;
+                hit.height = z;
+            }
         }
 
-        bool skip = z_leave - margin > top_of_node;
-        if (!skip && level == 0) {
-            // The walk's own position is good enough to choose cells, whose surfaces join, but not to solve one.
-            float z = ray.z_start - descent;
-            CellPosition x = cell_position(ray.uv.x, ray.uv_per_height.x, ray.zero_level - z, size.x);
-            CellPosition y = cell_position(ray.uv.y, ray.uv_per_height.y, ray.zero_level - z, size.y);
-            vec2 here = vec2(float(x.cell - origin.x - cell.x) + x.inside, float(y.cell - origin.y - cell.y) + y.inside);
-            // Descents from here at which the ray enters and leaves the cell; it entered before `here` where an opened node
-            // had the walk begin inside, or by rounding.
-            float enter = -descent;
-            float exit = descent_end - descent;
-            if (speed.x != 0.0f) {
-                enter = max(enter, ((speed.x > 0.0f ? 0.0f : 1.0f) - here.x) / speed.x);
-                exit = min(exit, ((speed.x > 0.0f ? 1.0f : 0.0f) - here.x) / speed.x);
-            }
-            if (speed.y != 0.0f) {
-                enter = max(enter, ((speed.y > 0.0f ? 0.0f : 1.0f) - here.y) / speed.y);
-                exit = min(exit, ((speed.y > 0.0f ? 1.0f : 0.0f) - here.y) / speed.y);
-            }
-            if (enter <= exit) {
-                vec2 entry = vec2(clamp(here.x + speed.x * enter, 0.0f, 1.0f), clamp(here.y + speed.y * enter, 0.0f, 1.0f));
-                float root = patch_descent(corners, entry, z - enter, speed, exit - enter);
-                if (root >= 0.0f) {
-                    hit.found = true;
-                    hit.height = z - (enter + root);
-                }
-            }
-            skip = true;
-        }
-        if (!skip) {
-            // Open the node where the ray comes down to its top; walls already passed are not taken back.
-            float down = ray.z_start - top_of_node - margin;
-            if (down > descent) {
-                descent = down;
-                int x = int(floor(offset.x + speed.x * descent));
-                int y = int(floor(offset.y + speed.y * descent));
-                cell.x = speed.x >= 0.0f ? clamp(x, cell.x, high.x - 1) : clamp(x, low.x, cell.x);
-                cell.y = speed.y >= 0.0f ? clamp(y, cell.y, high.y - 1) : clamp(y, low.y, cell.y);
-            }
-            --level;
-        } else if (!hit.found) {
-            descent = leave;
-            inside = descent < descent_end;
-            ivec2 before = ivec2(wrapped.x >> (level + 1), wrapped.y >> (level + 1));
-            ivec2 moved = cell;
-            if (exit_x <= exit_y) {
-                moved.x = speed.x > 0.0f ? high.x : low.x - 1;
-                int y = int(floor(offset.y + speed.y * min(descent, descent_end)));
-                moved.y = speed.y >= 0.0f ? clamp(y, cell.y, high.y - 1) : clamp(y, low.y, cell.y);
-            } else {
-                moved.y = speed.y > 0.0f ? high.y : low.y - 1;
-                int x = int(floor(offset.x + speed.x * min(descent, descent_end)));
-                moved.x = speed.x >= 0.0f ? clamp(x, cell.x, high.x - 1) : clamp(x, low.x, cell.x);
-            }
-            // Go up only on leaving the parent, which was opened for a reason.
-            ivec2 after = ivec2(wrapped.x + moved.x - cell.x, wrapped.y + moved.y - cell.y);
-            bool same_parent = after.x >= 0 && after.x < size.x && after.y >= 0 && after.y < size.y &&
-                               (after.x >> (level + 1)) == before.x && (after.y >> (level + 1)) == before.y;
-            if (!same_parent && level < top) ++level;
-            cell = moved;
-        }
-    }
+        // Into the node, where the ray comes down to its top, or out of it. What was passed is not taken back.
+        descent = max(descent, open ? above - highest : leave);
+        vec2 there = vec2(clamp(floor(r.offset.x + r.pace.x * descent), cell.x, cell.x + span.x - 1.0f),
+                          clamp(floor(r.offset.y + r.pace.y * descent), cell.y, cell.y + span.y - 1.0f));
+        if (!open && wall.x <= leave) there.x = cell.x + span.x;
+        if (!open && wall.y <= leave) there.y = cell.y + span.y;
+        // Go up only on leaving the parent, which was opened for a reason.
+        ivec2 moved = ivec2(index.x + r.turn.x * int(there.x - cell.x), index.y + r.turn.y * int(there.y - cell.y));
+        bool same_parent = moved.x >= 0 && moved.x < size.x && moved.y >= 0 && moved.y < size.y &&
+                           (moved.x >> (level + 1)) == (index.x >> (level + 1)) && (moved.y >> (level + 1)) == (index.y >> (level + 1));
+        level = open ? level - 1 : (same_parent || level >= top ? level : level + 1);
+        cell = there;
+    } while (descent < descent_end && !hit.found && fetches < params.max_steps);
     // Every field is at least 0, so a view ray that reaches the floor (or runs out of steps) has met it.
     if (!hit.found && ray.z_end <= 0.0f) {
         hit.found = true;
-        hit.height = inside ? max(ray.z_start - descent, ray.z_end) : ray.z_end;
+        hit.height = max(ray.z_start - descent, ray.z_end);
     }
     hit.uv = uv_at(ray, hit.height);
     return hit;
