@@ -166,5 +166,28 @@ TEST_F(ShadowModes, endWithTheRelief) {
     }
 }
 
+// An exact search needs no distance from its hit: hard shadows are the reference's to the pixel, feet and all.
+TEST_F(ShadowModes, hardOnesOfAnExactSearchAreTheReferences) {
+    for (const char* id : {"max_mip_tracing", "cell_cone_tracing"}) {
+        const Technique& exact = *find_technique(id);
+        int compared = 0;
+        int different = 0;
+        for (const double elevation : {15.0, 35.0, 65.0}) {
+            const Stage stage = stage_at(elevation);
+            const RayField rays = renderer->rays(stage, *material, width, height, {0, 0});
+            const DrawOptions options = with(glsl::shadow_hard);
+            const Frame f = renderer->draw(stage, *material, exact, default_params(exact), {.width = width, .height = height, .options = options});
+            const Frame right = reference_picture(stage, maps, {&rays, 1}, {.height_scale = height_scale, .zero_level = zero_level, .options = options});
+            for (std::size_t i = 0; i < f.shadow.texels.size(); ++i) {
+                if (f.coverage.texels[i] != 1 || right.coverage.texels[i] != 1) continue;
+                ++compared;
+                different += std::abs(f.shadow.texels[i] - right.shadow.texels[i]) > 0.5f;
+            }
+        }
+        EXPECT_GT(compared, 50000);
+        EXPECT_LE(different, compared / 5000) << id << " of " << compared;  // pixels whose hits float puts on the other side of a shadow's line
+    }
+}
+
 }  // namespace
 }  // namespace relievo
