@@ -5,6 +5,8 @@
 #ifndef RELIEVO_SHADING_EDGE_BLEND
 #define RELIEVO_SHADING_EDGE_BLEND
 
+#include "../surface/chart.glsl"
+#include "../surface/exact_height.glsl"
 #include "../surface/maps.glsl"
 #include "../surface/ray_entry.glsl"
 
@@ -18,25 +20,35 @@ struct EdgeNeighbour {
 // |uv_per_height| heights, so a gap measured in this unit is the edge's distance from the pixel's middle.
 float pixel_in_heights(SurfaceRay ray) { return exp2(ray.lod) / max(length(ray.uv_per_height), 1e-6f); }
 
-// What the ray would meet if it went on from below height z.
-SurfaceHit hit_beyond(SurfaceRay ray, float z, MarchParams params) {
-    SurfaceRay rest = ray;
-    rest.z_start = z;
-    return technique(rest, params);
+// What a ray meets that goes through the same pixel, so many pixels farther from the eye. What this ray meets if it goes on behind the
+// edge would be cheaper, and is wrong where that is a narrow groove: the groove then fills all that the edge leaves of the pixel.
+SurfaceHit hit_farther(SurfaceRay ray, float pixels, MarchParams params, float chart) {
+    SurfaceRay beside = ray;
+    beside.uv = ray.uv - ray.uv_per_height * (pixels * exp2(ray.lod) / max(length(ray.uv_per_height), 1e-6f));
+    beside.z_start = 1.0f;
+    beside.z_end = 0.0f;
+    beside = over_chart(beside, chart);
+    SurfaceHit hit;
+    hit.uv = beside.uv;
+    hit.height = beside.z_end;
+    hit.found = false;
+    if (beside.z_start > beside.z_end) hit = technique(beside, params);
+    if (!on_chart(hit.uv, chart)) hit.found = false;
+    return hit;
 }
 
-// First form: one step behind the hit the ray is above the field again, so it met an edge; what comes behind gets half the pixel. That
-// is right for an edge in the pixel's middle, and better than nothing where it lies within a quarter of a pixel: no step may be
-// longer. A thin ridge is an edge all over.
-EdgeNeighbour edge_behind(SurfaceRay ray, SurfaceHit hit, MarchParams params, int samples) {
+// First form: one step behind the hit the ray is above the field again, so it met an edge; what lies behind gets a share of the pixel
+// (published: half). The step is a quarter of a pixel, so that the edge leaves half a pixel to a quarter, and 3/8 in the mean. A thin ridge
+// is an edge all over.
+EdgeNeighbour edge_behind(SurfaceRay ray, SurfaceHit hit, MarchParams params, float chart) {
     EdgeNeighbour other;
     other.hit = hit;
     other.share = 0.0f;
-    float next = hit.height - min((ray.z_start - ray.z_end) / float(samples), 0.25f * pixel_in_heights(ray));
+    float next = hit.height - 0.25f * pixel_in_heights(ray);
     if (next > ray.z_end) {
         if (height_at(uv_at(ray, next)) < next) {
-            other.hit = hit_beyond(ray, next, params);
-            other.share = 0.5f;
+            other.hit = hit_farther(ray, 0.3125f, params, chart);  // the middle of those 3/8
+            other.share = 0.375f;
         }
     }
     return other;
@@ -77,7 +89,7 @@ vec2 nearest_pass(SurfaceRay ray, float z_hit, int samples) {
 SurfaceHit below_ray(SurfaceRay ray, float z) {
     SurfaceHit hit;
     hit.uv = uv_at(ray, z);
-    hit.height = height_at(hit.uv);
+    hit.height = exact_height(hit.uv);  // the shadow of an exact technique takes it at its word
     hit.found = true;
     return hit;
 }
@@ -99,7 +111,7 @@ EdgeNeighbour edge_passed(SurfaceRay ray, SurfaceHit hit, float width, int sampl
 
 // Ours: both sides of the edge, by the pixel's own size: an edge nearer than half a pixel has the rest of that half. The same behind the
 // hit, where the deepest the ray dips before it comes out again counts.
-EdgeNeighbour edge_covered(SurfaceRay ray, SurfaceHit hit, MarchParams params, int samples) {
+EdgeNeighbour edge_covered(SurfaceRay ray, SurfaceHit hit, MarchParams params, float chart, int samples) {
     EdgeNeighbour other;
     other.hit = hit;
     other.share = 0.0f;
@@ -122,23 +134,25 @@ EdgeNeighbour edge_covered(SurfaceRay ray, SurfaceHit hit, MarchParams params, i
             if (!out_again) z -= dz;
         }
         if (out_again && deepest < 0.5f * pixel && z > ray.z_end) {
-            other.hit = hit_beyond(ray, z, params);
-            other.share = 0.5f - deepest / pixel;
+            float away = deepest / pixel;
+            other.hit = hit_farther(ray, 0.5f * (away + 0.5f), params, chart);  // in the middle of what the edge leaves
+            other.share = 0.5f - away;
         }
     }
     return other;
 }
 
-EdgeNeighbour edge_neighbour(SurfaceRay ray, SurfaceHit hit, MarchParams params, int mode, float width, int samples) {
+// chart: as in surface/chart.glsl.
+EdgeNeighbour edge_neighbour(SurfaceRay ray, SurfaceHit hit, MarchParams params, int mode, float width, int samples, float chart) {
     EdgeNeighbour other;
     other.hit = hit;
     other.share = 0.0f;
     if (mode == edge_behind_mode) {
-        other = edge_behind(ray, hit, params, samples);
+        other = edge_behind(ray, hit, params, chart);
     } else if (mode == edge_passed_mode) {
         other = edge_passed(ray, hit, width, samples);
     } else if (mode == edge_covered_mode) {
-        other = edge_covered(ray, hit, params, samples);
+        other = edge_covered(ray, hit, params, chart, samples);
     }
     return other;
 }

@@ -16,6 +16,7 @@ thread_local HeightFieldFunction technique = nullptr;  // what the text calls
 #pragma GCC diagnostic ignored "-Wunused-function"
 #include "shading/edge_blend.glsl"
 #include "shading/light_disc.glsl"
+#include "shading/own_cell.glsl"
 #include "surface/by_angle.glsl"
 #include "surface/chart.glsl"
 #include "surface/hit_footprint.glsl"
@@ -123,6 +124,47 @@ TEST(Modifiers, discIsRoundAndOnTheLight) {
     EXPECT_NEAR(disc_above(0.5f), 0.80450f, 1e-4f);  // 1/2 + (sqrt(3)/4 + pi/6) / pi
 }
 
+// The patch under a ray that starts on it, by a thousand samples of the cell in double: clear to the cell's wall, or met again before.
+TEST(Modifiers, ownCellIsSolvedForItsSecondRoot) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> unit(0, 1);
+    MapSet maps;
+    maps.height = HeightField(16, 8);
+    for (float& h : maps.height.texels.texels) h = unit(random);
+    bound_maps = BoundMaps{.maps = &maps, .readable = MapFlags().set(index_of(Map::height))};
+    int hidden = 0, returning = 0, clear = 0;
+    for (int trial = 0; trial < 4000; ++trial) {
+        SurfaceHit hit;
+        hit.uv = {2 * unit(random) - 1, 2 * unit(random) - 1};
+        const vec2 pace{unit(random) * 0.5f - 0.25f, trial % 10 == 0 ? 0 : unit(random) * 0.5f - 0.25f};
+        const double x = hit.uv.x * 16 - 0.5, y = hit.uv.y * 8 - 0.5;
+        const double from = maps.height.sample(Vec2d(hit.uv));
+        const auto to_wall = [](double at, double by) { return by == 0 ? 1e9 : (by > 0 ? std::floor(at) + 1 - at : at - std::floor(at)) / std::abs(by); };
+        const double wall = std::min(to_wall(x, pace.x * 16.0), to_wall(y, pace.y * 8.0));
+        double first = 0, most = -1;
+        for (int k = 1; k < 1000; ++k) {
+            const double t = wall * k / 1000;
+            const double gap = maps.height.sample({hit.uv.x + t * pace.x, hit.uv.y + t * pace.y}) - from - t;
+            if (k == 1) first = gap;
+            most = std::max(most, gap);
+        }
+        hit.height = static_cast<float>(from);
+        const float climb = climb_out_of_cell(hit, pace);
+        if (std::abs(most) < 1e-4) continue;  // touches, or hardly leaves
+        EXPECT_EQ(climb < 0, most > 0) << trial << " gap " << most;
+        if (climb >= 0) {
+            EXPECT_NEAR(climb, wall, 1e-3 * (1 + wall));
+        }
+        clear += climb >= 0;
+        hidden += climb < 0;
+        returning += climb < 0 && first < 0;
+    }
+    bound_maps = {};
+    EXPECT_GT(clear, 500);
+    EXPECT_GT(hidden, 300);
+    EXPECT_GT(returning, 20) << "leave the patch and meet it again";
+}
+
 // A plateau and floor behind it. Rays over its far edge at a known gap see of it what is left of half their pixel; rays just under
 // the edge see of the floor the same.
 class Edges : public testing::Test {
@@ -158,7 +200,7 @@ TEST_F(Edges, coveredSharesThePixelByTheGap) {
         const SurfaceHit hit = technique(ray, params);
         ASSERT_TRUE(hit.found);
         ASSERT_LT(hit.height, 0.4f) << "the floor behind the plateau";
-        const EdgeNeighbour other = edge_covered(ray, hit, params, 48);
+        const EdgeNeighbour other = edge_covered(ray, hit, params, 0, 48);
         EXPECT_NEAR(other.share, std::max(0.0f, 0.5f - gap / 0.2f), 0.03f) << gap;
         if (other.share > 0) {
             EXPECT_NEAR(other.hit.height, 0.5f, 0.01f) << "the plateau";
@@ -170,7 +212,7 @@ TEST_F(Edges, coveredSharesThePixelByTheGap) {
         const SurfaceRay ray = passing(gap);
         const SurfaceHit hit = technique(ray, params);
         ASSERT_NEAR(hit.height, 0.5f, 0.02f);
-        const EdgeNeighbour other = edge_covered(ray, hit, params, 48);
+        const EdgeNeighbour other = edge_covered(ray, hit, params, 0, 48);
         EXPECT_NEAR(other.share, 0.5f + gap / 0.2f, 0.06f) << gap;
         ASSERT_TRUE(other.hit.found);
         EXPECT_LT(other.hit.height, 0.4f) << "the floor";
@@ -188,16 +230,16 @@ TEST_F(Edges, passedSharesThePixelByTheWidth) {
     EXPECT_EQ(edge_passed(near, technique(near, params), 0.05f, 64).share, 0.0f) << "more than half a pixel away";
 }
 
-TEST_F(Edges, behindHalvesThePixelThatMetAThinEdge) {
+TEST_F(Edges, behindSharesThePixelThatMetAnEdge) {
     const SurfaceRay met = passing(-0.005f);
-    const EdgeNeighbour other = edge_behind(met, technique(met, params), params, 48);
-    EXPECT_EQ(other.share, 0.5f);
+    const EdgeNeighbour other = edge_behind(met, technique(met, params), params, 0);
+    EXPECT_EQ(other.share, 0.375f);
     EXPECT_LT(other.hit.height, 0.4f);
     SurfaceRay near = met;  // a pixel is 0.004 heights: the edge is more than one away
     near.lod = std::log2(0.004f * met.uv_per_height.x);
-    EXPECT_EQ(edge_behind(near, technique(near, params), params, 48).share, 0.0f);
+    EXPECT_EQ(edge_behind(near, technique(near, params), params, 0).share, 0.0f);
     const SurfaceRay deep = passing(-0.3f);
-    EXPECT_EQ(edge_behind(deep, technique(deep, params), params, 48).share, 0.0f);
+    EXPECT_EQ(edge_behind(deep, technique(deep, params), params, 0).share, 0.0f);
 }
 
 // In the middle of a level field there is no edge.
@@ -206,7 +248,7 @@ TEST_F(Edges, levelFieldsHaveNone) {
     ray.lod = -8;
     const SurfaceHit hit = technique(ray, params);
     for (const int mode : {edge_behind_mode, edge_passed_mode, edge_covered_mode})
-        EXPECT_EQ(edge_neighbour(ray, hit, params, mode, 0.05f, 48).share, 0.0f) << mode;
+        EXPECT_EQ(edge_neighbour(ray, hit, params, mode, 0.05f, 48, 0).share, 0.0f) << mode;
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ void main() {
         gl_FragDepth = hit.found ? clamp(place.z / place.w, 0.0f, 1.0f) : 1.0f;
     }
     if (edge_mode != edge_none) {
-        EdgeNeighbour other = edge_neighbour(ray, hit, params, edge_mode, numbers.edge_width, numbers.edge_samples);
+        EdgeNeighbour other = edge_neighbour(ray, hit, params, edge_mode, numbers.edge_width, numbers.edge_samples,
+                                             border_mode == border_repeat ? 0.0f : numbers.chart);
         if (other.share > 0.0f) {
             vec3 beside = other.hit.found ? surface_colour(ray, other.hit) : background;
             colour = vec4(mix(vec3(colour), beside, other.share), 1.0f);
