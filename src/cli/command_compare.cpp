@@ -53,6 +53,7 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line) {
         s.height = size.height;
         s.techniques = parse_techniques(o->techniques);
         s.views = parse_views(o->views);
+        require_front(s.views, "compare");
         s.use_cache = !o->no_cache;
         s.sweep = o->sweep ? Sweep::full : o->no_sweep ? Sweep::none : Sweep::small;
         if (o->materials.empty())

@@ -111,6 +111,7 @@ void add_explain_command(CLI::App& app) {
         set_knobs(s, o->set);
         const auto chosen = parse_views({o->view});
         if (chosen.size() != 1) throw UsageError("explain looks at one view; --view names " + std::to_string(chosen.size()));
+        require_front(chosen, "explain");
         s.view = chosen.front();
         const Size size = parse_size(o->size);
         s.width = size.width;

@@ -76,7 +76,7 @@ void add_vary_command(CLI::App& app) {
     verb->add_option("--threads", o->settings.threads, "threads of the CPU work (0: all cores)")->check(CLI::NonNegativeNumber);
     add_modifier_options(*verb, o->settings.options);
     verb->add_option("--pictures", o->settings.pictures, "folder for the pictures (default: none are kept)");
-    verb->add_option("--contact-sheet", o->settings.sheet, "FILE.png: all values on the first material and view, then the truth, in one picture");
+    verb->add_option("--contact-sheet", o->settings.sheet, "FILE.png: from every view all values on the first material, then the truth, in one picture");
     verb->add_flag("--quiet", o->quiet, "no progress");
     verb->add_flag("--json", o->json, "print JSON instead of a table");
     verb->footer("Examples:\n  relievo vary shadow --material cobbles --light-radius 4\n"

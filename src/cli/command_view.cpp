@@ -35,6 +35,7 @@ void add_view_command(CLI::App& app) {
         o->settings.technique = &parse_technique(o->technique);
         const auto chosen = parse_views({o->view});
         if (chosen.size() != 1) throw UsageError("the window begins with one view; --view names " + std::to_string(chosen.size()));
+        require_front(chosen, "view");
         o->settings.view = chosen.front();
         const Size size = parse_size(o->size);
         o->settings.width = size.width;

@@ -67,11 +67,16 @@ std::vector<View> parse_views(const std::vector<std::string>& texts) {
     std::vector<View> result;
     for (const std::string& text : split(texts)) {
         const auto view = parse_view(text);
-        if (!view) throw UsageError(unknown_word("view", text, ids(views())) + "\n  Degrees above the plane do too, from 1 to 90, and either with @ and how many times as far away, from 0.1 to 100: 20@4.");
+        if (!view) throw UsageError(unknown_word("view", text, ids(views())) + "\n  Degrees above the plane do too, from 1 to 90 (with a minus, from behind), and either with @ and how many times as far away, from 0.1 to 100: 20@4.");
         if (std::ranges::find(result, view->id, &View::id) == result.end()) result.push_back(*view);
     }
     if (result.empty() && !texts.empty()) throw UsageError("--view names no view");
     return result;
+}
+
+void require_front(const std::vector<View>& views, const char* verb) {
+    for (const View& v : views)
+        if (v.from_behind()) throw UsageError("--view " + v.id + " looks from behind, and " + verb + " shows the front; render and vary show both");
 }
 
 const Technique& parse_technique(const std::string& id, const std::vector<std::string>& also) {

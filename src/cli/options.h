@@ -20,6 +20,7 @@ struct Size {
 
 Size parse_size(const std::string& text);                                        // "640x360", each side 1 to 16384
 std::vector<View> parse_views(const std::vector<std::string>& texts);            // names or degrees, commas allowed, each once
+void require_front(const std::vector<View>& views, const char* verb);             // UsageError where one looks from behind
 std::vector<const Technique*> parse_techniques(const std::vector<std::string>& texts);  // ids, commas allowed, each once
 // `also`: other words that the option takes, for the suggestion.
 const Technique& parse_technique(const std::string& id, const std::vector<std::string>& also = {});

@@ -13,8 +13,11 @@ struct Camera {
     Vec3d target{0, 0, 0};
     Vec3d up{0, 0, 1};
     double fov_y_rad = 0.6;
+    // What an eye on the other side of the plane z = 0 sees, with the world mirrored in that plane: the eye stands above it as ever, and
+    // the picture's up is the mirrored one.
+    bool from_behind = false;
 
-    // Orthonormal axes: right, up of the screen, and backward (from target to eye).
+    // Orthonormal axes: right, up of the screen, and backward (from target to eye); left-handed from behind.
     struct Axes {
         Vec3d right, up, back;
     };
@@ -24,7 +27,8 @@ struct Camera {
         Vec3d right = cross(up, back);
         if (dot(right, right) < 1e-18) right = cross(Vec3d{0, 1, 0}, back);
         right = normalize(right);
-        return {right, cross(back, right), back};
+        const Vec3d over = cross(back, right);
+        return {right, from_behind ? -over : over, back};
     }
 
     // Unit direction of the ray through a point of the screen, in pixels from its top left corner (pixel centres at .5).

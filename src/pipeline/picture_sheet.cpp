@@ -41,6 +41,14 @@ Image8 srgb_picture(const ImageF& linear) {
     return out;
 }
 
+Image8 magnified(const Image8& picture, int times) {
+    Image8 out(picture.width * times, picture.height * times, picture.channels);
+    for (int y = 0; y < out.height; ++y)
+        for (int x = 0; x < out.width; ++x)
+            for (int c = 0; c < out.channels; ++c) out(x, y, c) = picture(x / times, y / times, c);
+    return out;
+}
+
 Image8 in_rows(std::vector<Image8> panels, int abreast) {
     const auto columns = static_cast<std::size_t>(abreast);
     while (panels.size() % columns != 0) panels.emplace_back(panels.front().width, panels.front().height, 3, std::uint8_t{255});

@@ -16,6 +16,11 @@ Frame reference_picture(const Stage& stage, const MapSet& maps, std::span<const 
         for (RayField& r : finest) r.lod = ImageF(r.width, r.height, 1, -64.0f);
         rays = finest;
     }
+    std::vector<RayField> unseen;
+    if (stage.camera.from_behind && settings.options.sides == sides_front) {
+        for (const RayField& r : rays) unseen.emplace_back(r.width, r.height);
+        rays = unseen;
+    }
     return reference_frame(rays, maps, stage.lighting,
                            {.height_scale = settings.height_scale,
                             .zero_level = settings.zero_level,

@@ -3,6 +3,7 @@
 #include "assets/atomic_file.h"
 #include "assets/frame_file.h"
 #include "core/error.h"
+#include "maps/back_side.h"
 #include "pipeline/map_set_bake.h"
 #include "pipeline/reference_picture.h"
 
@@ -20,7 +21,9 @@ RenderedPicture render_picture(const RenderSettings& settings, const Progress& p
     const PictureSettings& picture = settings.picture;
     const std::size_t drawn = settings.technique != nullptr ? 1 : 0;  // the reference needs no map of a technique's or a modifier's
     const std::vector<Map> wanted = maps_to_draw(std::span(&settings.technique, drawn), std::span(&picture.options, drawn));
-    const BakedMaps baked = bake_maps(load_source(settings.material), wanted,
+    Material material = load_source(settings.material);
+    if (settings.view.from_behind()) material = back_side(std::move(material));
+    const BakedMaps baked = bake_maps(std::move(material), wanted,
                                       {.threads = settings.material.threads, .use_cache = settings.use_cache, .progress = progress});
 
     report(progress, "drawing", 0);

@@ -3,6 +3,7 @@
 #include "assets/frame_file.h"
 #include "assets/image_file.h"
 #include "core/error.h"
+#include "maps/back_side.h"
 #include "measure/display_values.h"
 #include "measure/flip.h"
 #include "measure/psnr.h"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 namespace relievo {
 
@@ -74,16 +76,25 @@ VarySettings example_of(const Modifier& modifier) {
     s.options.numbers.facets = 24;
     s.options.numbers.metallic = 1;
     s.options.numbers.roughness = 0.35f;
+    if (modifier.id == "sides") {
+        s.materials = {{.folder = "engraving"}};
+        s.views = {*parse_view("35"), *parse_view("-35")};
+    }
     if (modifier.id == "edge") {  // as a pixel without further samples shows it
         s.samples = 1;
-        s.truth_samples = 25;
-        s.width = 150;
-        s.height = 85;
-    } else if (modifier.id == "mip") {
+        s.truth_samples = 81;
+        s.width = 120;
+        s.height = 68;
+        s.magnified = 4;
+        s.options.border = glsl::border_chart;
+        s.views = {*parse_view("20@0.3")};
+    } else if (modifier.id == "mip" || modifier.id == "fade") {  // far enough for a pixel to cover many texels
         s.samples = 1;
-        s.truth_samples = 289;
-        s.views = {*parse_view("grazing")};
-    } else if (modifier.id != "shadow" && modifier.id != "shading") {
+        s.truth_samples = 81;
+        s.views = {*parse_view("grazing@4")};
+    } else if (modifier.id == "border") {  // one repeat and a fifth, so that the texture's end and the polygon's differ and both show
+        s.views = {*parse_view("20@0.4")};
+    } else if (modifier.id != "shadow" && modifier.id != "shading" && modifier.id != "sides") {
         s.views = {*parse_view("grazing")};
     }
     if (modifier.id == "steps") s.technique = find_technique("relief_mapping");
@@ -121,16 +132,22 @@ Varied vary_modifier(const VarySettings& settings, const Progress& progress) {
     const std::vector<Vec2f> truth_offsets = settings.truth_samples > 0 ? sample_offsets(settings.truth_samples) : offsets;
     const Technique* const drawn[] = {&technique};
     for (const MaterialSource& source : settings.materials) {
-        Material material = load_source(source);
+        const Material material = load_source(source);
         const std::string name = material.name;
-        const BakedMaps baked = bake_maps(std::move(material), maps_to_draw(drawn, all), {.threads = settings.threads, .progress = progress});
-        const auto uploaded = gpu.upload(baked.maps, baked.height_scale, baked.zero_level);
+        BakedMaps baked;
+        std::shared_ptr<const GpuMaterial> uploaded;
+        std::optional<bool> back;  // the side that these are of
+        std::vector<Image8> panels;
         for (const View& view : shown) {
+            if (back != view.from_behind()) {
+                back = view.from_behind();
+                baked = bake_maps(*back ? back_side(material) : material, maps_to_draw(drawn, all), {.threads = settings.threads, .progress = progress});
+                uploaded = gpu.upload(baked.maps, baked.height_scale, baked.zero_level);
+            }
             const Stage stage = stage_for(view);
             const PictureSettings picture{.width = settings.width, .height = settings.height, .options = {}, .offsets = offsets};
             const std::vector<Frame> frames = gpu.draw_timed(stage, *uploaded, timed, picture, settings.runs, progress);
             Frame truth;
-            std::vector<Image8> panels;
             for (std::size_t i = 0; i < frames.size(); ++i) {
                 if (i == 0 || modifier.truth < 0)
                     truth = sampled_truth(gpu, stage, *uploaded, baked.maps, settings.width, settings.height, truth_offsets,
@@ -149,16 +166,20 @@ Varied vary_modifier(const VarySettings& settings, const Progress& progress) {
                                        .psnr_db = psnr_db(shown_picture, shown_truth, settings.threads).value.value_or(99),
                                        .shadow_error = shadow_error(frames[i], truth),
                                        .gpu_ms = median(frames[i].gpu_ms)});
-                panels.push_back(srgb_picture(frames[i].colour));
-                if (i + 1 == frames.size() || modifier.truth < 0) panels.push_back(srgb_picture(truth.colour));
+                panels.push_back(magnified(srgb_picture(frames[i].colour), settings.magnified));
+                if (i + 1 == frames.size() || modifier.truth < 0) panels.push_back(magnified(srgb_picture(truth.colour), settings.magnified));
                 if (settings.pictures.empty()) continue;
                 const std::string prefix = name + "-" + view.id + "-" + std::string(modifier.id) + "-";
                 write_frame_png(fs::path(settings.pictures) / (prefix + value + ".png"), frames[i].colour);
                 if (i == 0 || modifier.truth < 0)
                     write_frame_png(fs::path(settings.pictures) / (prefix + (modifier.truth < 0 ? value + "-" : "") + "truth.png"), truth.colour);
             }
-            if (!settings.sheet.empty() && &view == &shown.front() && &source == &settings.materials.front())
-                write_png(settings.sheet, in_rows(std::move(panels), modifier.truth < 0 ? 2 : 3), FirstRow::top);
+            // Each view begins a row of its own.
+            const int abreast = modifier.truth < 0 ? 2 : 3;
+            while (panels.size() % static_cast<std::size_t>(abreast) != 0)
+                panels.emplace_back(panels.front().width, panels.front().height, 3, std::uint8_t{255});
+            if (!settings.sheet.empty() && &view == &shown.back() && &source == &settings.materials.front())
+                write_png(settings.sheet, in_rows(std::move(panels), abreast), FirstRow::top);
         }
     }
     return result;

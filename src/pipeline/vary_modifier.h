@@ -19,7 +19,8 @@ struct VarySettings {
     DrawOptions options{};                 // of everything but the modifier that is varied
     std::string device;
     std::string pictures;                  // a folder for the pictures of every value and of the truth; empty: none are kept
-    std::string sheet;                     // one picture of them all, as PNG: the values of the first material and view, then the truth; empty: none
+    std::string sheet;                     // one picture of them all, as PNG: for every view the values on the first material, then the truth; empty: none
+    int magnified = 1;                     // pixels of that picture for one of each
     int width = 448;
     int height = 252;
     int runs = 11;                         // timed runs of each value, interleaved

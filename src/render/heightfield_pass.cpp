@@ -51,7 +51,7 @@ vk::Pipeline HeightFieldPass::pipeline(const Draw& draw) {
     // The specialization constants of surface.glsl; a host that runs no technique has none and ignores them.
     std::vector<std::uint32_t> constants{static_cast<std::uint32_t>(shadow), shaded_by, draw.technique ? draw.scene.light_count() : 0};
     for (const Modifier& m : modifiers())
-        if (m.choice != &DrawOptions::shadow) constants.push_back(static_cast<std::uint32_t>(draw.options.*m.choice));
+        if (m.choice != &DrawOptions::shadow && m.choice != &DrawOptions::sides) constants.push_back(static_cast<std::uint32_t>(draw.options.*m.choice));
     const Key key{draw.host.file, std::string(id), constants, draw.host.targets, meets_sheet(draw)};
     auto it = pipelines_.find(key);
     if (it == pipelines_.end()) {
@@ -121,7 +121,8 @@ void HeightFieldPass::record(const vk::raii::CommandBuffer& commands, const Draw
                                 numbers};
     commands.pushConstants<DrawUniforms>(*layout_.draw_pipeline, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0,
                                          uniforms);
-    commands.draw(4, 1, 0, 0);
+    // A base of one piece is seen from one side.
+    if (draw.technique == nullptr || !draw.scene.from_behind() || draw.options.sides == sides_both) commands.draw(4, 1, 0, 0);
     if (sheet) {
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, sheet_pipeline(draw));
         commands.draw(4, 1, 0, 0);

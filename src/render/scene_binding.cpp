@@ -91,6 +91,7 @@ void SceneBinding::update(const Stage& stage, int width, int height, Vec2f offse
     const auto& lights = stage.lighting.lights;
     light_count_ = static_cast<std::uint32_t>(lights.size());
     periods_ = stage.base.periods;
+    from_behind_ = stage.camera.from_behind;
     constexpr std::size_t first = glsl::first_lights_count;
     SceneBlock block{scene_uniforms(stage, width, height, offset), {}};
     for (std::size_t i = 0; i < std::min(first, lights.size()); ++i) block.first_lights[i] = light_uniforms(lights[i]);

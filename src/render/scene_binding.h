@@ -18,6 +18,7 @@ public:
     vk::DescriptorSet set() const { return set_.handle; }
     std::uint32_t light_count() const { return light_count_; }
     float periods() const { return periods_; }
+    bool from_behind() const { return from_behind_; }
 
 private:
     const gpu::Device* device_;
@@ -26,6 +27,7 @@ private:
     DescriptorSet set_;
     std::uint32_t light_count_ = 0;
     float periods_ = 0;
+    bool from_behind_ = false;
 };
 
 }  // namespace relievo

@@ -29,7 +29,7 @@ const Scene* find_scene(std::string_view id) {
 
 Stage stage_for(const View& view) {
     Stage stage;
-    const double e = radians(view.elevation_deg);
+    const double e = radians(std::abs(view.elevation_deg));
     const double a = radians(view.azimuth_deg);
     // Near enough that the square fills the frame, about two and a half repeats wide; farther when seen from above, where a repeat
     // is not foreshortened. At grazing views the square's far edge stays in sight: there a flat base betrays itself.
@@ -38,6 +38,7 @@ Stage stage_for(const View& view) {
     // Aimed a little short of the centre, so that the horizon stays in the upper quarter.
     stage.camera.target = Vec3d{std::cos(a), std::sin(a), 0} * (0.25 * std::cos(e) * view.distance);
     stage.camera.fov_y_rad = radians(32);
+    stage.camera.from_behind = view.from_behind();
     stage.base.periods *= static_cast<float>(view.distance);
 
     // 32 degrees above the surface: low enough that relief reads, high enough that shadows do not swallow the joints.

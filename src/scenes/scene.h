@@ -33,7 +33,8 @@ std::span<const Scene> scenes();
 const Scene* find_scene(std::string_view id);
 
 // The stage on which a material is shown from a view: the camera framed on the quad, a warm key light low enough that relief
-// reads, a weak cool fill.
+// reads, a weak cool fill. From behind the stage is mirrored in the polygon (core/camera.h), and the lights stay on the eye's side; the
+// material to put on it is the back (maps/back_side.h).
 Stage stage_for(const View& view);
 
 // The rays of a picture of the stage's quad, in double from the camera alone; `offset` shifts the sample inside the pixel, from

@@ -37,7 +37,8 @@ std::optional<View> parse_view(std::string_view text) {
     }
     const auto table = views();
     const auto it = std::ranges::find(table, angle, &View::id);
-    const auto degrees = it != table.end() ? std::optional(it->elevation_deg) : number_in(angle, 1, 90);
+    auto degrees = it != table.end() ? std::optional(it->elevation_deg) : number_in(angle, 1, 90);
+    if (!degrees) degrees = number_in(angle, -90, -1);
     if (!degrees) return std::nullopt;
     view.elevation_deg = *degrees;
     return view;

@@ -26,7 +26,7 @@ constexpr ModifierValue shadow_values[] = {
 
 constexpr ModifierValue edge_values[] = {
     {"none", "a pixel shows the one point that its ray meets"},
-    {"behind", "half of a pixel that met an edge is what comes behind it", mile},
+    {"behind", "a pixel that met an edge is mixed with what lies behind", mile},
     {"passed", "an edge that the ray passed within half a pixel is mixed in, by the gap", mile},
     {"covered", "both sides of an edge, by how much of the pixel they cover"},
 };
@@ -66,6 +66,11 @@ constexpr ModifierValue sheet_values[] = {
     {"none", "nothing but the relief"},
     {"polygon", "a level sheet, hidden by the polygon: what depth buffers hold when a shader leaves them alone"},
     {"relief", "a level sheet, hidden by the relief: the depth of the hit is written", {"Policarpo, Oliveira, Comba", 2005, "Real-Time Relief Mapping on Arbitrary Polygonal Surfaces"}},
+};
+
+constexpr ModifierValue sides_values[] = {
+    {"front", "from behind there is nothing"},
+    {"both", "from behind what rises is sunk, and what is sunk rises", mile},
 };
 
 constexpr Modifier table[] = {
@@ -149,6 +154,15 @@ constexpr Modifier table[] = {
         .choice = &Options::sheet,
         .usual = glsl::sheet_none,
         .truth = glsl::sheet_relief,
+    },
+    {
+        .id = "sides",
+        .title = "Sides",
+        .help = "which sides of the polygon show the relief",
+        .values = sides_values,
+        .choice = &Options::sides,
+        .usual = sides_front,
+        .truth = -1,
     },
 };
 enum Row { shadow_row, edge_row, steps_row, scale_row, border_row, fade_row, mip_row, shading_row, sheet_row };
@@ -238,7 +252,7 @@ constexpr ModifierNumber number_table[] = {
         .to_unit = 1,
         .member = &Numbers::edge_samples,
         .of = &table[edge_row],
-        .values = bit(glsl::edge_behind_mode) | bit(glsl::edge_passed_mode) | bit(glsl::edge_covered_mode),
+        .values = bit(glsl::edge_passed_mode) | bit(glsl::edge_covered_mode),
     },
     {
         .id = "least_steps",
@@ -290,7 +304,7 @@ constexpr ModifierNumber number_table[] = {
         .min = 0,
         .max = 1024,
         .step = 0.1f,
-        .initial = 8,
+        .initial = 32,
         .to_unit = 1,
         .member = &Numbers::fade_near,
         .of = &table[fade_row],
@@ -304,7 +318,7 @@ constexpr ModifierNumber number_table[] = {
         .min = 0,
         .max = 1024,
         .step = 0.1f,
-        .initial = 32,
+        .initial = 128,
         .to_unit = 1,
         .member = &Numbers::fade_far,
         .of = &table[fade_row],
@@ -378,6 +392,7 @@ static_assert(steps_values[glsl::steps_cosine].id == "cosine" && steps_values[gl
 static_assert(scale_values[glsl::scale_cosine].id == "cosine" && scale_values[glsl::scale_power].id == "power");
 static_assert(border_values[glsl::border_clip].id == "clip" && border_values[glsl::border_chart].id == "chart");
 static_assert(sheet_values[glsl::sheet_polygon].id == "polygon" && sheet_values[glsl::sheet_relief].id == "relief");
+static_assert(sides_values[sides_front].id == "front" && sides_values[sides_both].id == "both");
 static_assert(fade_values[glsl::fade_footprint].id == "footprint");
 static_assert(mip_values[glsl::mip_hit].id == "hit" && mip_values[glsl::mip_finest].id == "finest");
 static_assert(shading_values[glsl::shading_blinn_phong].id == "blinn_phong" && shading_values[glsl::shading_ggx].id == "ggx" &&
@@ -391,7 +406,7 @@ std::string plain(float value) {
 
 }  // namespace
 
-DrawOptions::DrawOptions() : glsl::DrawModes{} {
+DrawOptions::DrawOptions() : glsl::DrawModes{}, sides(sides_front) {
     for (const Modifier& m : table) this->*m.choice = m.usual;
     for (const ModifierNumber& n : number_table) n.set(*this, n.initial);
 }

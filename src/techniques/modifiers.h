@@ -12,8 +12,13 @@
 
 namespace relievo {
 
+// Values of DrawOptions::sides.
+inline constexpr int sides_front = 0;
+inline constexpr int sides_both = 1;
+
 // One value for each modifier. The defaults change nothing: the technique alone, with the hard shadow it casts itself.
 struct DrawOptions : glsl::DrawModes {
+    int sides;  // of the polygon that show anything; no program needs to know
     glsl::DrawNumbers numbers{};
     DrawOptions();  // the table's defaults
 };

@@ -14,7 +14,10 @@ TEST(View, isParsedByNameAngleAndDistance) {
     EXPECT_EQ(parse_view("22.5@0.5")->elevation_deg, 22.5);
     EXPECT_EQ(parse_view("22.5@0.5")->distance, 0.5);
     EXPECT_EQ(parse_view("22.5@0.5")->id, "22.5@0.5");
-    for (const char* wrong : {"", "@", "@2", "grazing@", "grazing@0", "grazing@101", "grazing@nan", "grazing@2x", "grazing@2@2", "0@2", "91", "nan", "2e9", "grazin@2"})
+    EXPECT_EQ(parse_view("-35@2")->elevation_deg, -35);
+    EXPECT_TRUE(parse_view("-35")->from_behind());
+    EXPECT_FALSE(parse_view("35")->from_behind());
+    for (const char* wrong : {"-0.5", "-91", "-grazing", "", "@", "@2", "grazing@", "grazing@0", "grazing@101", "grazing@nan", "grazing@2x", "grazing@2@2", "0@2", "91", "nan", "2e9", "grazin@2"})
         EXPECT_FALSE(parse_view(wrong).has_value()) << wrong;
 }
 
@@ -36,6 +39,30 @@ TEST(View, distanceMultipliesTheRepeatsUnderEveryPixel) {
         }
         EXPECT_GT(covered, 1000);
     }
+}
+
+// From behind: the rays of a camera that really stands below, of which the world is turned over.
+TEST(View, fromBehindIsTheMirroredWorld) {
+    const View view{.id = "test", .elevation_deg = -40};
+    const Stage stage = stage_for(view);
+    Camera below = stage.camera;
+    below.from_behind = false;
+    below.eye.z = -below.eye.z;
+    const RayField rays = quad_rays(stage, 48, 30, {0, 0});
+    int covered = 0;
+    for (int y = 0; y < 30; ++y)
+        for (int x = 0; x < 48; ++x) {
+            const Vec3d d = below.ray({x + 0.5, y + 0.5}, 48, 30);
+            if (rays.coverage(x, y) == 0) continue;
+            ++covered;
+            const double t = -below.eye.z / d.z;
+            ASSERT_NEAR(rays.uv(x, y, 0), below.eye.x + t * d.x + 1.5, 1e-5);
+            ASSERT_NEAR(rays.uv(x, y, 1), below.eye.y + t * d.y + 1.5, 1e-5);
+            ASSERT_NEAR(rays.view(x, y, 0), -d.x, 1e-6);
+            ASSERT_NEAR(rays.view(x, y, 1), -d.y, 1e-6);
+            ASSERT_NEAR(rays.view(x, y, 2), d.z, 1e-6) << "toward the eye, of which the world is mirrored";
+        }
+    EXPECT_GT(covered, 700);
 }
 
 }  // namespace
