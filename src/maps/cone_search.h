@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -147,8 +148,17 @@ struct Rows {
 
 template <class Cells>
 ImageF cones(const HeightField& field, int threads, const Progress& progress, std::string_view stage, void (*search)(const Rows&)) {
-    const Reach reach = reach_of<Cells>(field, threads);
     ImageF result(field.width(), field.height(), 2);
+    const std::vector<float>& heights = field.texels.texels;
+    if (std::adjacent_find(heights.begin(), heights.end(), std::not_equal_to<>()) == heights.end()) {
+        // A level field: nothing to search, and nothing to prepare for it.
+        for (std::size_t k = 0; k < heights.size(); ++k) {
+            result.texels[2 * k] = heights[k];
+            result.texels[2 * k + 1] = 1.0f;
+        }
+        return result;
+    }
+    const Reach reach = reach_of<Cells>(field, threads);
     parallel_for((field.height() + tile - 1) / tile, 1, threads,
                  [&](int begin, int end) {
                      search({field, reach, begin, end, result});
