@@ -108,12 +108,8 @@ TEST(CellCone, ReportsProgressAndStopsWhenCancelled) {
         last = share;
     });
     EXPECT_EQ(last, 1.0);
-    int calls = 0;
-    EXPECT_THROW(cell_cone_map(test::random_field(256, 256, 1), 2,
-                               [&](std::string_view, double) {
-                                   if (++calls == 2) throw Cancelled();
-                               }),
-                 Cancelled);
+    // At the first report: on a busy machine the thread that reports may come to no second one before the end.
+    EXPECT_THROW(cell_cone_map(test::random_field(256, 256, 1), 2, [](std::string_view, double) { throw Cancelled(); }), Cancelled);
 }
 
 }  // namespace
