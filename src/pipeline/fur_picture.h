@@ -5,6 +5,7 @@
 #include "core/progress.h"
 #include "fur/coat.h"
 #include "fur/evenness.h"
+#include "pipeline/fur_score.h"
 
 #include <filesystem>
 #include <optional>
@@ -27,15 +28,6 @@ struct FurSettings {
 
 struct FurTimes {  // milliseconds
     double load = 0, prepare = 0, roots = 0, grid = 0, first_frame = 0, frame_median = 0;
-};
-
-// The picture against the traced one.
-struct FurScore {
-    double flip = 0;             // mean LDR-FLIP, backdrop included
-    double coverage_error = 0;   // mean difference of coverage, over the pixels where either has any
-    double gaps = 0;             // share of the pixels more than half covered in the reference that are less than a quarter covered
-    double reference_ms = 0;
-    int samples = 0;
 };
 
 struct FurPicture {
