@@ -52,7 +52,7 @@ std::pair<Buffer, std::size_t> inflate_all(std::string_view packed, const std::s
     for (;;) {
         if (size == capacity) {
             if (size > max_bytes)
-                throw Error("read", file, "it inflates to more than " + std::to_string(max_bytes >> 20) + " MiB", "decompress it yourself if you trust it");
+                throw Error("read", file, "byte " + std::to_string(read) + ": it inflates to more than " + std::to_string(max_bytes >> 20) + " MiB", "decompress it yourself if you trust it");
             capacity = static_cast<std::size_t>(std::min<std::uint64_t>(capacity + capacity / 2 + 4096, max_bytes + 1));
             grow(buffer, capacity);
         }
@@ -80,8 +80,8 @@ std::pair<Buffer, std::size_t> inflate_all(std::string_view packed, const std::s
                     "copy the file again");
     }
     if (size > max_bytes)
-        throw Error("read", file, "it inflates to more than " + std::to_string(max_bytes >> 20) + " MiB", "decompress it yourself if you trust it");
-    if (size == 0) throw Error("read", file, "it is compressed and holds nothing");
+        throw Error("read", file, "byte " + std::to_string(read) + ": it inflates to more than " + std::to_string(max_bytes >> 20) + " MiB", "decompress it yourself if you trust it");
+    if (size == 0) throw Error("read", file, "byte " + std::to_string(read) + ", its end: it is compressed and holds nothing");
     return {std::move(buffer), size};
 }
 
@@ -123,7 +123,7 @@ FileBytes FileBytes::open(const std::filesystem::path& file, std::uint64_t max_b
     if (::fstat(descriptor, &status) != 0) throw Error("read", file.string(), std::strerror(errno));
     if (S_ISDIR(status.st_mode)) throw Error("read", file.string(), "it is a folder", "name a file");
     if (!S_ISREG(status.st_mode)) throw Error("read", file.string(), "it is not a plain file", "save it to a file first");
-    if (status.st_size == 0) throw Error("read", file.string(), "the file is empty");
+    if (status.st_size == 0) throw Error("read", file.string(), "byte 0: the file is empty");
 
     FileBytes bytes;
     void* const mapped = ::mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE, descriptor, 0);

@@ -1,5 +1,6 @@
 #include "assets/gltf_accessor.h"
 
+#include "assets/json_place.h"
 #include "core/error.h"
 
 #include <nlohmann/json.hpp>
@@ -91,8 +92,8 @@ struct GltfData::Accessor {
     const json* sparse = nullptr;
 };
 
-GltfData::GltfData(const json& document, std::string_view binary, const ReadUri& read_uri, const std::string& file)
-    : document_(document), binary_(binary), read_uri_(read_uri), file_(file) {
+GltfData::GltfData(const json& document, std::string_view text, std::string_view bytes, std::string_view binary, const ReadUri& read_uri, const std::string& file)
+    : document_(document), text_(text), bytes_(bytes), binary_(binary), reading_(&document), read_uri_(read_uri), file_(file) {
     const std::size_t n = document.contains("buffers") ? document.at("buffers").size() : 0;
     buffers_.resize(n);
     read_.resize(n);
@@ -100,13 +101,16 @@ GltfData::GltfData(const json& document, std::string_view binary, const ReadUri&
 
 GltfData::~GltfData() = default;
 
-void GltfData::fail(const std::string& why) const { throw Error("read", file_, why); }
+void GltfData::fail(const json& value, const std::string& why) const {
+    const auto start = static_cast<std::size_t>(text_.data() - bytes_.data());
+    throw Error("read", file_, "byte " + std::to_string(start + byte_of(text_, document_, value)) + ": " + why);
+}
 
 std::int64_t GltfData::integer(const json& value) const {
-    if (!value.is_number()) fail("its JSON has " + std::string(value.type_name()) + " where a number belongs");
+    if (!value.is_number()) fail(value, "its JSON has " + std::string(value.type_name()) + " where a number belongs");
     const double number = value.get<double>();
     // Larger sizes exist in no file, and sums of these cannot overflow.
-    if (!(std::abs(number) <= 1e15)) fail("its JSON has a number out of range");
+    if (!(std::abs(number) <= 1e15)) fail(value, "its JSON has a number out of range");
     return static_cast<std::int64_t>(number);
 }
 
@@ -114,72 +118,79 @@ std::uint64_t GltfData::number(const json& object, const char* key, std::uint64_
     const auto found = object.find(key);
     if (found == object.end()) return otherwise;
     const std::int64_t value = integer(*found);
-    if (value < 0) fail(std::string("its JSON has a negative \"") + key + "\"");
+    if (value < 0) fail(*found, std::string("its JSON has a negative \"") + key + "\"");
     return static_cast<std::uint64_t>(value);
 }
 
 std::string_view GltfData::buffer(std::int64_t index) {
-    if (index < 0 || index >= static_cast<std::int64_t>(buffers_.size())) fail("buffer " + std::to_string(index) + " is not there");
+    if (index < 0 || index >= static_cast<std::int64_t>(buffers_.size())) fail(document_, "buffer " + std::to_string(index) + " is not there");
     const auto at = static_cast<std::size_t>(index);
     const json& object = document_.at("buffers").at(at);
-    if (!object.is_object()) fail("buffer " + std::to_string(index) + " is no object");
+    read_at(object);
+    if (!object.is_object()) fail(object, "buffer " + std::to_string(index) + " is no object");
     const std::uint64_t promised = number(object, "byteLength", 0);
     std::string_view bytes;
     if (!object.contains("uri")) {
-        if (index != 0 || binary_.empty()) fail("buffer " + std::to_string(index) + " has no uri and the file has no binary chunk for it");
+        if (index != 0 || binary_.empty()) fail(object, "buffer " + std::to_string(index) + " has no uri and the file has no binary chunk for it");
         bytes = binary_;
     } else {
         if (!read_[at]) {
             const auto& uri = object.at("uri").get_ref<const std::string&>();
             const std::size_t comma = uri.find(',');
             if (uri.starts_with("data:")) {
-                if (comma == std::string::npos) fail("buffer " + std::to_string(index) + " has a data uri without data");
+                if (comma == std::string::npos) fail(object, "buffer " + std::to_string(index) + " has a data uri without data");
                 const bool base64 = std::string_view(uri).substr(0, comma).ends_with(";base64");
                 buffers_[at] = base64 ? decode_base64(std::string_view(uri).substr(comma + 1)) : decode_percent(std::string_view(uri).substr(comma + 1));
             } else {
-                buffers_[at] = read_uri_(decode_percent(uri));
+                try {
+                    buffers_[at] = read_uri_(decode_percent(uri));
+                } catch (const Error& e) {
+                    fail(object.at("uri"), "its buffer is missing: " + std::string(e.what()));
+                }
             }
             read_[at] = true;
         }
         bytes = buffers_[at];
     }
     if (bytes.size() < promised)
-        fail("buffer " + std::to_string(index) + " promises " + std::to_string(promised) + " bytes and has " + std::to_string(bytes.size()));
+        fail(object, "buffer " + std::to_string(index) + " promises " + std::to_string(promised) + " bytes and has " + std::to_string(bytes.size()));
     return bytes.substr(0, static_cast<std::size_t>(promised));
 }
 
 GltfData::View GltfData::view(std::int64_t index) {
     const json& views = document_.at("bufferViews");
-    if (index < 0 || index >= static_cast<std::int64_t>(views.size())) fail("bufferView " + std::to_string(index) + " is not there");
+    if (index < 0 || index >= static_cast<std::int64_t>(views.size())) fail(views, "bufferView " + std::to_string(index) + " is not there");
     const json& object = views.at(static_cast<std::size_t>(index));
-    if (!object.is_object()) fail("bufferView " + std::to_string(index) + " is no object");
+    read_at(object);
+    if (!object.is_object()) fail(object, "bufferView " + std::to_string(index) + " is no object");
     const json extensions = object.value("extensions", json::object());
     if (extensions.contains("EXT_meshopt_compression") || extensions.contains("KHR_meshopt_compression"))
-        fail("bufferView " + std::to_string(index) + " is compressed with meshopt, which is not read here");
+        fail(object, "bufferView " + std::to_string(index) + " is compressed with meshopt, which is not read here");
     const std::string_view bytes = buffer(static_cast<std::int64_t>(number(object, "buffer", 0)));
     const std::uint64_t offset = number(object, "byteOffset", 0), length = number(object, "byteLength", 0);
     if (offset + length > bytes.size())
-        fail("bufferView " + std::to_string(index) + " ends at byte " + std::to_string(offset + length) + " of a buffer of " + std::to_string(bytes.size()));
+        fail(object, "bufferView " + std::to_string(index) + " ends at byte " + std::to_string(offset + length) + " of a buffer of " + std::to_string(bytes.size()));
     return {bytes.substr(static_cast<std::size_t>(offset), static_cast<std::size_t>(length)), number(object, "byteStride", 0)};
 }
 
 GltfData::Accessor GltfData::accessor(std::int64_t index) {
     const json& accessors = document_.at("accessors");
-    if (index < 0 || index >= static_cast<std::int64_t>(accessors.size())) fail("accessor " + std::to_string(index) + " is not there");
+    if (index < 0 || index >= static_cast<std::int64_t>(accessors.size())) fail(accessors, "accessor " + std::to_string(index) + " is not there");
     const json& object = accessors.at(static_cast<std::size_t>(index));
-    if (!object.is_object()) fail("accessor " + std::to_string(index) + " is no object");
+    read_at(object);
+    if (!object.is_object()) fail(object, "accessor " + std::to_string(index) + " is no object");
     const std::string who = "accessor " + std::to_string(index);
 
     Accessor result;
     result.index = index;
     result.component = static_cast<std::int64_t>(number(object, "componentType", 0));
     const std::size_t size = size_of(result.component);
-    if (size == 0) fail(who + " has the unknown component type " + std::to_string(result.component));
+    if (size == 0) fail(object, who + " has the unknown component type " + std::to_string(result.component));
     const auto& type = object.at("type").get_ref<const std::string&>();
     result.components = type == "SCALAR" ? 1 : type == "VEC2" ? 2 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : 0;
-    if (result.components == 0) fail(who + " has type " + type + ", which no vertex attribute has");
+    if (result.components == 0) fail(object, who + " has type " + type + ", which no vertex attribute has");
     const std::uint64_t count = number(object, "count", 0);
-    if (count > max_vertices) fail(who + " promises " + std::to_string(count) + " elements");
+    if (count > max_vertices) fail(object, who + " promises " + std::to_string(count) + " elements");
     result.count = static_cast<std::size_t>(count);
     result.normalised = object.contains("normalized") && object.at("normalized").get<bool>();
     const std::uint64_t element = size * result.components;
@@ -189,17 +200,17 @@ GltfData::Accessor GltfData::accessor(std::int64_t index) {
         result.stride = from.stride ? from.stride : element;
         const std::uint64_t end = count == 0 ? 0 : offset + (count - 1) * result.stride + element;
         // Strides are 4 to 252 bytes; shorter ones would let few bytes stand for many elements.
-        if (result.stride < element || result.stride > 252) fail(who + " has elements " + std::to_string(result.stride) + " bytes apart");
+        if (result.stride < element || result.stride > 252) fail(object, who + " has elements " + std::to_string(result.stride) + " bytes apart");
         if (end > from.bytes.size())
-            fail(who + " promises " + std::to_string(count) + " elements up to byte " + std::to_string(end) + " of a bufferView of " + std::to_string(from.bytes.size()));
+            fail(object, who + " promises " + std::to_string(count) + " elements up to byte " + std::to_string(end) + " of a bufferView of " + std::to_string(from.bytes.size()));
         if (count > 0) result.bytes = from.bytes.substr(static_cast<std::size_t>(offset));
     }
     if (object.contains("sparse")) result.sparse = &object.at("sparse");
     if (result.bytes.empty() && count > 0) {
         // All zero but for what a sparse part says: nothing in the file is as large as the promise.
         constexpr std::uint64_t most_zeros = 1 << 20;
-        if (!result.sparse) fail(who + " has no data");
-        if (count > most_zeros) fail(who + " promises " + std::to_string(count) + " elements and has data for a few");
+        if (!result.sparse) fail(object, who + " has no data");
+        if (count > most_zeros) fail(object, who + " promises " + std::to_string(count) + " elements and has data for a few");
     }
     return result;
 }
@@ -217,16 +228,16 @@ std::vector<T> GltfData::values(const Accessor& from, const Convert& convert) {
     const json &places = from.sparse->at("indices"), &replaced = from.sparse->at("values");
     const std::uint64_t n = number(*from.sparse, "count", 0);
     const auto component = static_cast<std::int64_t>(number(places, "componentType", 0));
-    if (component != u8 && component != u16 && component != u32) fail(who + " has indices of type " + std::to_string(component));
+    if (component != u8 && component != u16 && component != u32) fail(*from.sparse, who + " has indices of type " + std::to_string(component));
     const View index_view = view(static_cast<std::int64_t>(number(places, "bufferView", 0))), value_view = view(static_cast<std::int64_t>(number(replaced, "bufferView", 0)));
     const std::uint64_t index_at = number(places, "byteOffset", 0), value_at = number(replaced, "byteOffset", 0);
     const std::size_t index_size = size_of(component), element = size * from.components;
     if (n > max_vertices || index_at + n * index_size > index_view.bytes.size() || value_at + n * element > value_view.bytes.size())
-        fail(who + " promises " + std::to_string(n) + " elements, more than it has");
+        fail(*from.sparse, who + " promises " + std::to_string(n) + " elements, more than it has");
     for (std::size_t i = 0; i < n; ++i) {
         const char* const at = index_view.bytes.data() + index_at + i * index_size;
         const std::size_t place = component == u8 ? little<std::uint8_t>(at) : component == u16 ? little<std::uint16_t>(at) : little<std::uint32_t>(at);
-        if (place >= from.count) fail(who + " replaces element " + std::to_string(place) + " of " + std::to_string(from.count));
+        if (place >= from.count) fail(*from.sparse, who + " replaces element " + std::to_string(place) + " of " + std::to_string(from.count));
         for (std::size_t k = 0; k < from.components; ++k) all[place * from.components + k] = convert(value_view.bytes.data() + value_at + i * element + k * size);
     }
     return all;
@@ -252,12 +263,12 @@ std::vector<float> GltfData::floats(std::int64_t index, std::size_t& components)
 std::vector<std::uint32_t> GltfData::indices(std::int64_t index) {
     const Accessor from = accessor(index);
     const std::string who = "accessor " + std::to_string(index);
-    if (from.components != 1) fail(who + " holds indices and is no SCALAR");
+    if (from.components != 1) fail(document_.at("accessors").at(static_cast<std::size_t>(index)), who + " holds indices and is no SCALAR");
     switch (from.component) {
         case u8: return values<std::uint32_t>(from, [](const char* at) { return little<std::uint8_t>(at); });
         case u16: return values<std::uint32_t>(from, [](const char* at) { return little<std::uint16_t>(at); });
         case u32: return values<std::uint32_t>(from, [](const char* at) { return little<std::uint32_t>(at); });
-        default: fail(who + " holds indices of component type " + std::to_string(from.component));
+        default: fail(document_.at("accessors").at(static_cast<std::size_t>(index)), who + " holds indices of component type " + std::to_string(from.component));
     }
 }
 

@@ -14,8 +14,9 @@ namespace relievo {
 
 class GltfData {
 public:
-    // `binary` is the second chunk of a GLB, empty for JSON. Buffers are read when they are first needed.
-    GltfData(const nlohmann::json& document, std::string_view binary, const ReadUri& read_uri, const std::string& file);
+    // `text` is what the document was parsed from and lies in `bytes`, the file. `binary` is the second chunk of a GLB, empty for JSON.
+    // Buffers are read when they are first needed.
+    GltfData(const nlohmann::json& document, std::string_view text, std::string_view bytes, std::string_view binary, const ReadUri& read_uri, const std::string& file);
     ~GltfData();
 
     // Elements of `components` floats each, one after the other; integers that the accessor calls normalised become shares.
@@ -29,7 +30,12 @@ public:
     // A number of the document, which JSON does not confine to whole ones.
     std::int64_t integer(const nlohmann::json& value) const;
 
-    [[noreturn]] void fail(const std::string& why) const;
+    // What is read now: the library says what it misses there, and not where that is.
+    void read_at(const nlohmann::json& value) { reading_ = &value; }
+    const nlohmann::json& reading() const { return *reading_; }
+
+    // Throws Error naming the byte at which `value`, a part of the document, stands in the file.
+    [[noreturn]] void fail(const nlohmann::json& value, const std::string& why) const;
 
 private:
     struct View;
@@ -42,7 +48,8 @@ private:
     std::vector<T> values(const Accessor& from, const Convert& convert);
 
     const nlohmann::json& document_;
-    std::string_view binary_;
+    std::string_view text_, bytes_, binary_;
+    const nlohmann::json* reading_;
     const ReadUri& read_uri_;
     const std::string& file_;
     std::vector<std::string> buffers_;

@@ -159,7 +159,7 @@ void PolygonCutter::cut(std::span<const std::uint32_t> corners, std::span<const 
     if (!any) ++faults.faces_degenerate;
 }
 
-void finish_mesh(Mesh& mesh, MeshFaults faults, const std::string& file, int threads) {
+void finish_mesh(Mesh& mesh, MeshFaults faults, std::size_t bytes, const std::string& file, int threads) {
     std::atomic<bool> all_finite{true}, all_distinct{true};
     for_blocks(mesh.positions.size(), threads, [&](std::size_t begin, std::size_t end) {
         // Zero times anything finite is zero, and NaN otherwise: one sum tells for the whole block.
@@ -190,7 +190,7 @@ void finish_mesh(Mesh& mesh, MeshFaults faults, const std::string& file, int thr
     faults.describe(mesh.notes);
 
     if (mesh.indices.empty()) {
-        std::string why = "it holds " + counted(mesh.positions.size(), "vertex", "vertices") + " and no face";
+        std::string why = end_of(bytes) + "it holds " + counted(mesh.positions.size(), "vertex", "vertices") + " and no face";
         if (!mesh.notes.empty()) why += '.';
         for (const std::string& note : mesh.notes) why += ' ' + note;
         throw Error("read", file, why);
@@ -201,9 +201,11 @@ void refuse_binary_text(std::string_view bytes, const std::string& file, const s
     const std::string_view start = bytes.substr(0, 4096);
     const std::size_t zero = start.find('\0');
     if (start.starts_with("\xfe\xff") || start.starts_with("\xff\xfe"))
-        throw Error("read", file, "it is text in UTF-16", "save it as UTF-8 or ASCII");
+        throw Error("read", file, "byte 0: it is text in UTF-16", "save it as UTF-8 or ASCII");
     if (zero != std::string_view::npos) throw Error("read", file, "byte " + std::to_string(zero) + " is 0: it is no " + format + " text");
 }
+
+std::string end_of(std::size_t bytes) { return "byte " + std::to_string(bytes) + ", its end: "; }
 
 std::string line_of(std::string_view text, std::size_t byte) {
     const std::string_view before = text.substr(0, byte);

@@ -46,8 +46,11 @@ private:
 
 // Keeps the promises of Mesh for a mesh whose indices are in range and whose attributes are complete: drops vertices that are not
 // finite with their faces and faces whose corners repeat, makes normals unit vectors, confines colours, describes the faults.
-// Throws Error ("cannot read `file`: ...") where no face is left.
-void finish_mesh(Mesh& mesh, MeshFaults faults, const std::string& file, int threads);
+// Throws Error ("cannot read `file`: ...") where no face is left; `bytes` is the size of the file.
+void finish_mesh(Mesh& mesh, MeshFaults faults, std::size_t bytes, const std::string& file, int threads);
+
+// "byte N, its end: ", for complaints about a file as a whole.
+std::string end_of(std::size_t bytes);
 
 // Throws Error for text in UTF-16 or UTF-32 and for bytes that are no text, as found among the first ones.
 void refuse_binary_text(std::string_view bytes, const std::string& file, const std::string& format);

@@ -163,7 +163,7 @@ Mesh parse_mesh_cache(std::string_view bytes, const std::string& file, int threa
         throw damaged("byte 24: its counts of vertices and indices are absurd");
     const Layout layout(header);
     if (layout.end != bytes.size())
-        throw damaged("its header promises " + std::to_string(layout.end) + " bytes, it has " + std::to_string(bytes.size()));
+        throw damaged("byte 24: its header promises " + std::to_string(layout.end) + " bytes, it has " + std::to_string(bytes.size()));
     if (header.checksum != checksum_of_blocks(bytes.substr(sizeof(Header)), bytes.substr(0, checked_header_bytes), threads))
         throw damaged("byte 48: the checksum does not fit the content");
 
@@ -192,14 +192,14 @@ Mesh parse_mesh_cache(std::string_view bytes, const std::string& file, int threa
             if (header.attributes & with_colours) copy_out(bytes, layout.colours, header.vertices, mesh.colours);
         }
     });
-    if (!in_range) throw damaged("an index is out of range");
+    if (!in_range) throw damaged("byte " + std::to_string(layout.indices) + " and after: an index is out of range");
     mesh.name = bytes.substr(static_cast<std::size_t>(layout.name), header.name_bytes);
     for (std::string_view notes = bytes.substr(static_cast<std::size_t>(layout.notes)); !notes.empty();) {
         const std::size_t end = std::min(notes.find('\n'), notes.size() - 1);
         mesh.notes.emplace_back(notes.substr(0, end));
         notes.remove_prefix(end + 1);
     }
-    finish_mesh(mesh, {}, file, threads);
+    finish_mesh(mesh, {}, bytes.size(), file, threads);
     return mesh;
 }
 

@@ -32,21 +32,16 @@ std::string name_of(const std::filesystem::path& file) {
     return compressed ? file.stem().stem().string() : file.stem().string();
 }
 
-std::string read_beside(const std::filesystem::path& folder, const std::string& uri, const std::string& file) {
+std::string read_beside(const std::filesystem::path& folder, const std::string& uri) {
     const std::filesystem::path path(uri);
     const bool remote = uri.find("://") != std::string::npos;
-    if (remote || path.is_absolute() || folder.empty()) throw Error("read", file, "its buffer \"" + uri + "\" is no file beside it", "save it with its buffers, as GLB for instance");
-    try {
-        const FileBytes bytes = FileBytes::open(folder / path);
-        return std::string(bytes.view());
-    } catch (const Error& e) {
-        throw Error("read", file, std::string("its buffer is missing: ") + e.what());
-    }
+    if (remote || path.is_absolute() || folder.empty()) throw Error("read", uri, "it is no file beside it", "save it with its buffers, as GLB for instance");
+    return std::string(FileBytes::open(folder / path).view());
 }
 
 Mesh parse_plain(std::string_view bytes, const std::string& ending, const std::string& file, const std::filesystem::path& folder, int threads, const Forget& forget = {}) {
-    const auto read_uri = [&](const std::string& uri) { return read_beside(folder, uri, file); };
-    if (bytes.empty()) throw Error("read", file, "the file is empty");
+    const auto read_uri = [&](const std::string& uri) { return read_beside(folder, uri); };
+    if (bytes.empty()) throw Error("read", file, "byte 0: the file is empty");
     if (is_mesh_cache(bytes)) return parse_mesh_cache(bytes, file, threads);
     if (bytes.starts_with("ply") && bytes.size() > 3 && (bytes[3] == '\n' || bytes[3] == '\r' || bytes[3] == ' ')) return parse_ply(bytes, file, threads);
     if (bytes.starts_with("glTF")) return parse_gltf(bytes, file, read_uri, threads);

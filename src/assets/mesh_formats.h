@@ -29,7 +29,7 @@ Mesh parse_off(std::string_view bytes, const std::string& file, int threads = 0)
 // STL, text or binary.
 Mesh parse_stl(std::string_view bytes, const std::string& file, int threads = 0);
 
-// What an URI of a glTF file names, relative to it. Throws Error.
+// The content of what an URI of a glTF file names, relative to it. Throws Error.
 using ReadUri = std::function<std::string(const std::string& uri)>;
 
 // glTF 2.0 as JSON or GLB: all triangles of the default scene (of all meshes if there is none) with node transforms, as one mesh.

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "assets/gltf_accessor.h"
+#include "assets/json_place.h"
 #include "assets/mesh_assembly.h"
 #include "assets/mesh_formats.h"
 #include "assets/polygon_list.h"
@@ -60,8 +61,8 @@ float encoded(float linear) {
 
 class SceneReader {
 public:
-    SceneReader(const json& document, std::string_view binary, std::size_t file_bytes, const ReadUri& read_uri, const std::string& file)
-        : document_(document), data_(document, binary, read_uri, file), file_bytes_(file_bytes), file_(file) {}
+    SceneReader(const json& document, std::string_view text, std::string_view bytes, std::string_view binary, const ReadUri& read_uri, const std::string& file)
+        : document_(document), data_(document, text, bytes, binary, read_uri, file), file_bytes_(bytes.size()), file_(file) {}
 
     Mesh read(int threads) {
         refuse_unknown_extensions();
@@ -71,15 +72,17 @@ public:
             add_scene();
         }
         if (passed_over_ > 0) mesh_.notes.push_back(std::to_string(passed_over_) + " primitives of points or lines were passed over: only faces make a mesh.");
-        finish_mesh(mesh_, faults_, file_, threads);
+        finish_mesh(mesh_, faults_, file_bytes_, file_, threads);
         return std::move(mesh_);
     }
+
+    const json& reading() const { return data_.reading(); }
 
 private:
     std::size_t size_of(const char* key) const { return document_.contains(key) ? document_.at(key).size() : 0; }
 
     const json& item(const char* key, std::int64_t index) const {
-        if (index < 0 || index >= static_cast<std::int64_t>(size_of(key))) data_.fail(std::string(key) + " has no entry " + std::to_string(index));
+        if (index < 0 || index >= static_cast<std::int64_t>(size_of(key))) data_.fail(size_of(key) > 0 ? document_.at(key) : document_, std::string(key) + " has no entry " + std::to_string(index));
         return document_.at(key).at(static_cast<std::size_t>(index));
     }
 
@@ -96,7 +99,7 @@ private:
             const auto& text = name.get_ref<const std::string&>();
             const bool harmless = text == "KHR_mesh_quantization" || text.starts_with("KHR_materials") || text.starts_with("KHR_texture") ||
                                   text.starts_with("EXT_texture") || text == "KHR_lights_punctual";
-            if (!harmless) data_.fail("it requires the extension " + text + ", which is not read here");
+            if (!harmless) data_.fail(name, "it requires the extension " + text + ", which is not read here");
         }
     }
 
@@ -105,6 +108,7 @@ private:
         if (size_of("scenes") > 0) {
             const std::int64_t scene = document_.contains("scene") ? data_.integer(document_.at("scene")) : 0;
             const json& object = item("scenes", scene);
+            data_.read_at(object);
             if (object.contains("nodes")) roots = integers(object.at("nodes"));
         } else {
             std::vector<bool> child(size_of("nodes"));
@@ -114,7 +118,7 @@ private:
                         if (c >= 0 && c < static_cast<std::int64_t>(child.size())) child[static_cast<std::size_t>(c)] = true;
             for (std::size_t n = 0; n < child.size(); ++n)
                 if (!child[n]) roots.push_back(static_cast<std::int64_t>(n));
-            if (roots.empty() && !child.empty()) data_.fail("every node is another one's child: the nodes form a circle");
+            if (roots.empty() && !child.empty()) data_.fail(document_.at("nodes"), "every node is another one's child: the nodes form a circle");
         }
         // A node has one parent at most, so that a walk meets each once; a second time means a circle or a shared child.
         std::vector<bool> met(size_of("nodes"));
@@ -128,7 +132,8 @@ private:
             const Visit visit = open.back();
             open.pop_back();
             const json& node = item("nodes", visit.node);
-            if (met[static_cast<std::size_t>(visit.node)]) data_.fail("node " + std::to_string(visit.node) + " is reached twice: the nodes are no tree");
+            data_.read_at(node);
+            if (met[static_cast<std::size_t>(visit.node)]) data_.fail(node, "node " + std::to_string(visit.node) + " is reached twice: the nodes are no tree");
             met[static_cast<std::size_t>(visit.node)] = true;
             const Affine transform = visit.parent * transform_of(node);
             // The vertices of a skinned mesh lie in the skeleton's space, whatever its node says.
@@ -141,41 +146,44 @@ private:
     }
 
     void add_mesh(std::int64_t index, const Affine& transform) {
-        for (const json& primitive : item("meshes", index).at("primitives")) add_primitive(primitive, transform);
+        const json& mesh = item("meshes", index);
+        data_.read_at(mesh);
+        for (const json& primitive : mesh.at("primitives")) add_primitive(primitive, transform);
     }
 
     std::vector<float> attribute(const json& attributes, const char* name, std::size_t at_least, std::size_t vertices, std::size_t& components) {
         if (!attributes.contains(name)) return {};
         std::vector<float> values = data_.floats(data_.integer(attributes.at(name)), components);
-        if (components < at_least) data_.fail(std::string(name) + " has " + std::to_string(components) + " components, expected " + std::to_string(at_least));
+        if (components < at_least) data_.fail(attributes.at(name), std::string(name) + " has " + std::to_string(components) + " components, expected " + std::to_string(at_least));
         if (values.size() / components != vertices)
-            data_.fail(std::string(name) + " has " + std::to_string(values.size() / components) + " elements for " + std::to_string(vertices) + " positions");
+            data_.fail(attributes.at(name), std::string(name) + " has " + std::to_string(values.size() / components) + " elements for " + std::to_string(vertices) + " positions");
         return values;
     }
 
     // Nodes may show one mesh many times: a few bytes could ask for more memory than there is.
-    void check_amount(std::size_t vertices, std::size_t indices) {
+    void check_amount(const json& primitive, std::size_t vertices, std::size_t indices) {
         // The last term is for the time that a primitive takes, however few triangles it has.
         constexpr std::size_t always = 64 << 20, times = 64, for_a_primitive = 1024;
         bytes_ += 12 * vertices + 4 * indices + for_a_primitive;
-        if (bytes_ > always && bytes_ / times > file_bytes_) data_.fail("its nodes repeat meshes until they hold more than " + std::to_string(times) + " times the file");
-        if (mesh_.positions.size() + vertices > max_vertices) data_.fail("it holds more than 2^32 vertices");
+        if (bytes_ > always && bytes_ / times > file_bytes_) data_.fail(primitive, "its nodes repeat meshes until they hold more than " + std::to_string(times) + " times the file");
+        if (mesh_.positions.size() + vertices > max_vertices) data_.fail(primitive, "it holds more than 2^32 vertices");
     }
 
     void add_primitive(const json& primitive, const Affine& transform) {
+        data_.read_at(primitive);
         const std::int64_t mode = primitive.contains("mode") ? data_.integer(primitive.at("mode")) : 4;
-        if (mode < 0 || mode > 6) data_.fail("a primitive has the unknown mode " + std::to_string(mode));
+        if (mode < 0 || mode > 6) data_.fail(primitive.at("mode"), "a primitive has the unknown mode " + std::to_string(mode));
         if (mode < 4) {
             ++passed_over_;
             return;
         }
         if (primitive.contains("extensions") && primitive.at("extensions").contains("KHR_draco_mesh_compression"))
-            data_.fail("a primitive is compressed with Draco, which is not read here");
+            data_.fail(primitive, "a primitive is compressed with Draco, which is not read here");
         const json& attributes = primitive.at("attributes");
         const std::int64_t position = data_.integer(attributes.at("POSITION"));
         const std::size_t n = data_.count(position);
         const bool indexed = primitive.contains("indices");
-        check_amount(n, indexed ? data_.count(data_.integer(primitive.at("indices"))) * (mode == 4 ? 1 : 3) : n * (mode == 4 ? 1 : 3));
+        check_amount(primitive, n, indexed ? data_.count(data_.integer(primitive.at("indices"))) * (mode == 4 ? 1 : 3) : n * (mode == 4 ? 1 : 3));
 
         std::size_t components = 0;
         const std::vector<float> positions = attribute(attributes, "POSITION", 3, n, components);
@@ -290,17 +298,28 @@ Mesh parse_gltf(std::string_view bytes, const std::string& file, const ReadUri& 
         split_glb(bytes, text, binary, file);
     else
         text = bytes;
+    const auto at_byte = [&](std::size_t in_text) { return "byte " + std::to_string(in_text + static_cast<std::size_t>(text.data() - bytes.data())) + ": "; };
+    json document;
     try {
-        const json document = json::parse(text);
-        if (!document.is_object() || !document.contains("asset")) throw Error("read", file, "it is JSON but no glTF: it has no \"asset\"");
-        const std::string version = document.at("asset").value("version", "2.0");
-        if (!version.starts_with("2")) throw Error("read", file, "it is glTF of version " + version + ", read is version 2");
-        return SceneReader(document, binary, bytes.size(), read_uri, file).read(threads);
+        document = json::parse(text);
     } catch (const json::parse_error& e) {
-        throw Error("read", file, "byte " + std::to_string(e.byte + static_cast<std::size_t>(text.data() - bytes.data())) + ": it is no JSON");
+        throw Error("read", file, at_byte(e.byte) + "it is no JSON");
+    } catch (const json::out_of_range& e) {  // a number: the message ends with it, in quotes
+        const std::string what = e.what();
+        const std::size_t quote = what.find('\'');
+        const std::size_t at = quote == std::string::npos ? 0 : text.find(std::string_view(what).substr(quote + 1, what.rfind('\'') - quote - 1));
+        throw Error("read", file, at_byte(at == std::string_view::npos ? 0 : at) + "a number is larger than numbers of JSON are read");
+    }
+    const auto fail = [&](const json& value, const std::string& why) { return Error("read", file, at_byte(byte_of(text, document, value)) + why); };
+    if (!document.is_object() || !document.contains("asset")) throw fail(document, "it is JSON but no glTF: it has no \"asset\"");
+    SceneReader reader(document, text, bytes, binary, read_uri, file);
+    try {
+        const std::string version = document.at("asset").value("version", "2.0");
+        if (!version.starts_with("2")) throw fail(document.at("asset"), "it is glTF of version " + version + ", read is version 2");
+        return reader.read(threads);
     } catch (const json::exception& e) {
         const std::string what = e.what();
-        throw Error("read", file, "its JSON is no glTF: " + what.substr(what.find("] ") == std::string::npos ? 0 : what.find("] ") + 2));
+        throw fail(reader.reading(), "its JSON is no glTF: " + what.substr(what.find("] ") == std::string::npos ? 0 : what.find("] ") + 2));
     }
 }
 

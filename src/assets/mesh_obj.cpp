@@ -199,8 +199,8 @@ Mesh parse_obj(std::string_view bytes, const std::string& file, int threads, con
         before[i] = total;
         for (const std::size_t a : {position, uv, normal}) total[a] += piece.count(a);
     }
-    if (total[position] == 0) throw Error("read", file, "it holds no vertex", "is it an OBJ file?");
-    if (*std::max_element(total.begin(), total.end()) > max_vertices) throw Error("read", file, "it holds more than 2^32 vertices");
+    if (total[position] == 0) throw Error("read", file, end_of(bytes.size()) + "it holds no vertex", "is it an OBJ file?");
+    if (*std::max_element(total.begin(), total.end()) > max_vertices) throw Error("read", file, end_of(bytes.size()) + "it holds more than 2^32 vertices");
 
     Mesh mesh;
     const auto vertices_of = [](const Piece& piece) { return piece.vertex_count; };
@@ -225,7 +225,7 @@ Mesh parse_obj(std::string_view bytes, const std::string& file, int threads, con
         uv_follows = uv_follows && (!any_uv || follows_position(piece, uv));
         normal_follows = normal_follows && (!any_normal || follows_position(piece, normal));
     }
-    if (corner_count > max_vertices) throw Error("read", file, "it holds more than 2^32 corners");
+    if (corner_count > max_vertices) throw Error("read", file, end_of(bytes.size()) + "it holds more than 2^32 corners");
     if (passed_over > 0) mesh.notes.push_back(std::to_string(passed_over) + " lines, points or curves were passed over: only faces make a mesh.");
 
     std::array<std::vector<std::uint32_t>, 3> corners;
@@ -251,7 +251,7 @@ Mesh parse_obj(std::string_view bytes, const std::string& file, int threads, con
         joiner.attributes(uvs, normals);
     }
     mesh.indices = std::move(corners[position]);
-    finish_mesh(mesh, faults, file, threads);
+    finish_mesh(mesh, faults, bytes.size(), file, threads);
     return mesh;
 }
 

@@ -34,7 +34,7 @@ public:
         for (std::uint64_t f = 0; f < faces; ++f) read_face(polygons);
         MeshFaults faults;
         mesh.indices = triangles_of(std::move(polygons), mesh.positions, faults, threads);
-        finish_mesh(mesh, faults, file_, threads);
+        finish_mesh(mesh, faults, bytes_.size(), file_, threads);
         return mesh;
     }
 

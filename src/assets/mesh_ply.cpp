@@ -354,14 +354,14 @@ Mesh parse_ply(std::string_view bytes, const std::string& file, int threads) {
         const std::size_t at = ascii ? text.at() : binary.at();
         const std::uint64_t room = bytes.size() - at + ascii, least = element.least_bytes(header.format);
         if (element.count > room / least)
-            throw Error("read", file, "its header promises " + std::to_string(element.count) + " elements \"" + element.name + "\", the " + std::to_string(room) +
+            throw Error("read", file, "line " + std::to_string(element.line) + ": its header promises " + std::to_string(element.count) + " elements \"" + element.name + "\", the " + std::to_string(room) +
                         " bytes from byte " + std::to_string(at) + " on hold at most " + std::to_string(room / least), "copy the file again");
         std::optional<VertexSink> sink;
         if (element.name == "vertex" && !has_vertices) {
             has_vertices = true;
-            if (element.count > max_vertices) throw Error("read", file, "it holds more than 2^32 vertices");
+            if (element.count > max_vertices) throw Error("read", file, end_of(bytes.size()) + "it holds more than 2^32 vertices");
             sink.emplace(element, mesh);
-            if (!sink->complete()) throw Error("read", file, "its vertices have no x, y and z");
+            if (!sink->complete()) throw Error("read", file, "line " + std::to_string(element.line) + ": its vertices have no x, y and z");
             if (ascii && e == 0 && header.elements.size() == 2 &&
                 read_text_lines(bytes.substr(at), element, header.elements[1], *sink, polygons, threads))
                 break;
@@ -384,7 +384,7 @@ Mesh parse_ply(std::string_view bytes, const std::string& file, int threads) {
         for (const Property& property : element.properties)
             if (property.count && property.name == "texcoord") mesh.notes.push_back("Texture coordinates per corner were passed over: they are read per vertex only.");
     mesh.indices = triangles_of(std::move(polygons), mesh.positions, faults, threads);
-    finish_mesh(mesh, faults, file, threads);
+    finish_mesh(mesh, faults, bytes.size(), file, threads);
     return mesh;
 }
 

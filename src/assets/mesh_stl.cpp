@@ -43,13 +43,13 @@ Mesh parse_binary(std::string_view bytes, const std::string& file, int threads) 
     const std::uint32_t promised = promised_triangles(bytes);
     const std::size_t held = (bytes.size() - header_bytes) / triangle_bytes;
     if (promised > held)
-        throw Error("read", file, "its header promises " + std::to_string(promised) + " triangles, its " + std::to_string(bytes.size()) + " bytes hold " + std::to_string(held),
+        throw Error("read", file, "byte 80: its header promises " + std::to_string(promised) + " triangles, its " + std::to_string(bytes.size()) + " bytes hold " + std::to_string(held),
                     "copy the file again");
     Mesh mesh;
     if (bytes.size() != header_bytes + promised * triangle_bytes)
         mesh.notes.push_back(std::to_string(bytes.size() - header_bytes - promised * triangle_bytes) + " bytes behind the last triangle were passed over.");
     const std::size_t corners = std::size_t{promised} * 3;
-    if (corners > max_vertices) throw Error("read", file, "it holds more than 2^32 corners");
+    if (corners > max_vertices) throw Error("read", file, end_of(bytes.size()) + "it holds more than 2^32 corners");
     mesh.positions.resize(corners);
     mesh.indices.resize(corners);
     constexpr std::size_t block = 1 << 13;
@@ -62,7 +62,7 @@ Mesh parse_binary(std::string_view bytes, const std::string& file, int threads) 
             }
         }
     });
-    finish_mesh(mesh, {}, file, threads);
+    finish_mesh(mesh, {}, bytes.size(), file, threads);
     return mesh;
 }
 
@@ -87,7 +87,7 @@ Mesh parse_text(std::string_view bytes, const std::string& file, int threads) {
                 while (text::is_blank(*p)) ++p;
                 if (!text::read_float(p, end, *value)) throw fail(p, "a vertex has fewer than three numbers, or something that is no number");
             }
-            if (mesh.positions.size() >= max_vertices) throw Error("read", file, "it holds more than 2^32 corners");
+            if (mesh.positions.size() >= max_vertices) throw Error("read", file, end_of(bytes.size()) + "it holds more than 2^32 corners");
             polygons.corners.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
             mesh.positions.push_back(position);
             ++open;
@@ -103,7 +103,7 @@ Mesh parse_text(std::string_view bytes, const std::string& file, int threads) {
     if (open > 0) throw fail(end - 1, "it ends in the middle of a triangle");
     MeshFaults faults;
     mesh.indices = triangles_of(std::move(polygons), mesh.positions, faults, threads);
-    finish_mesh(mesh, faults, file, threads);
+    finish_mesh(mesh, faults, bytes.size(), file, threads);
     return mesh;
 }
 

@@ -78,6 +78,7 @@ Header read_header(std::string_view bytes, const std::string& file) {
             if (words.size() != 3) throw fail("an element is \"element NAME COUNT\"");
             Element& element = header.elements.emplace_back();
             element.name = words[1];
+            element.line = line_number;
             for (const char c : words[2]) {
                 if (!text::is_digit(c)) throw fail("the count of an element is no number");
                 element.count = element.count * 10 + static_cast<std::uint64_t>(c - '0');
@@ -99,8 +100,8 @@ Header read_header(std::string_view bytes, const std::string& file) {
             ++header.unknown_lines;  // some exporters forget the word "comment"
         }
     }
-    if (!has_format) throw Error("read", file, "the header names no format");
-    if (header.elements.empty()) throw Error("read", file, "the header names no element: there is nothing to read");
+    if (!has_format) throw Error("read", file, "line " + std::to_string(line_number) + ": the header names no format");
+    if (header.elements.empty()) throw Error("read", file, "line " + std::to_string(line_number) + ": the header names no element: there is nothing to read");
     return header;
 }
 

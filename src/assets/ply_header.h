@@ -25,6 +25,7 @@ struct Property {
 struct Element {
     std::string name;
     std::uint64_t count = 0;
+    int line = 0;  // of the file
     std::vector<Property> properties;
 
     // Bytes an instance needs at least: text needs a digit and a separator per value.

@@ -171,6 +171,21 @@ TEST(MeshGltf, refusals) {
     EXPECT_TRUE(has(refusal("glTF" + raw(2u) + raw(20u) + raw(99u) + "JSON"), "byte 12: a chunk promises 99 bytes"));
 }
 
+TEST(MeshGltf, refusals_name_the_byte_at_which_the_value_stands) {
+    // What is wrong is put last among values that look like it: spaces, escaped names, names that come twice.
+    const auto refused_at = [](const std::string& text, const std::string& value) {
+        const std::string said = message_of<Error>([&] { gltf(text); });
+        EXPECT_TRUE(has(said, "byte " + std::to_string(text.rfind(value)) + ": ")) << said;
+    };
+    const std::string start = R"({"asset":{"version":"2.0"}, "extras":{"nodes":[{"mesh":7}], "a":"]}\"\\"}, )";
+    refused_at(start + R"("meshes" : [ {"primitives":[]} ], "nodes":[ {"name":"{"}, {"mesh" :  false } ], "scenes":[{"nodes":[0,1]}]})", "false");
+    refused_at(start + R"("sc\u0065nes":[3], "scenes" : [ {"nodes":[]}, {"nodes":[0, "x"] } ], "nodes":[{}], "scene":1})", "\"x\"");
+    refused_at(start + R"("meshes":[{"primitives":[{"mode":4},{"mode": 9}]}]})", "{\"mode\":4}");  // a key that is missing: where its object begins
+    refused_at(R"({"asset":{"version":"2.0"},"scene":1e999})", "1e999");
+    const std::string deep = R"({"asset":{"version":"2.0"},"extras":)" + std::string(300000, '[') + std::string(300000, ']') + R"(,"nodes":[{"mesh":4}]})";
+    refused_at(deep, "{\"asset");  // no mesh at all: the document
+}
+
 TEST(MeshGltf, nodes_cannot_multiply_a_file_without_limit) {
     // 20,000 nodes that show a mesh of 10,000 primitives: a gigabyte and more out of a file of a few hundred kilobytes.
     std::string nodes = "[", primitives;

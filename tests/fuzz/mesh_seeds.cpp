@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -192,6 +193,14 @@ std::string mutated(const std::string& file, const std::string& other, std::mt19
     return bytes;
 }
 
+// "line 7" or "byte 12" somewhere in it.
+bool names_a_place(const std::string& refusal) {
+    for (const char* word : {"line ", "byte "})
+        for (std::size_t at = refusal.find(word); at != std::string::npos; at = refusal.find(word, at + 1))
+            if (std::isdigit(static_cast<unsigned char>(refusal.c_str()[at + 5]))) return true;
+    return false;
+}
+
 bool try_mesh(const std::string& format, std::string_view bytes) {
     std::array<std::optional<Mesh>, 2> meshes;
     std::array<std::string, 2> refusals;
@@ -204,7 +213,10 @@ bool try_mesh(const std::string& format, std::string_view bytes) {
         }
     }
     check(meshes[0].has_value() == meshes[1].has_value() && refusals[0] == refusals[1], "the same answer for any number of threads");
-    if (!meshes[0]) return false;
+    if (!meshes[0]) {
+        check(names_a_place(refusals[0]), "a refusal that names a line or a byte");
+        return false;
+    }
     check_mesh(*meshes[0]);
     check(same_bits(meshes[0]->positions, meshes[1]->positions) && same_bits(meshes[0]->normals, meshes[1]->normals) &&
               same_bits(meshes[0]->colours, meshes[1]->colours) && meshes[0]->indices == meshes[1]->indices && meshes[0]->notes == meshes[1]->notes,
