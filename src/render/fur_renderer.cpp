@@ -7,6 +7,7 @@
 #include "gpu/image.h"
 #include "gpu/pipeline.h"
 #include "gpu/volume.h"
+#include "render/eye_matrix.h"
 #include "render/programs.h"
 
 #include <algorithm>
@@ -40,32 +41,6 @@ struct Push {
 };
 static_assert(sizeof(Push) == 128);  // what every Vulkan device takes
 
-std::span<const std::uint32_t> words_of(std::string_view host) {
-    const auto all = programs();
-    const auto it = std::ranges::find(all, host, &Program::host);
-    assert(it != all.end());
-    return it->words;
-}
-
-// Rows of (x, y, z, offset) as a matrix, columns first.
-std::array<float, 16> matrix(const std::array<std::array<double, 4>, 4>& rows) {
-    std::array<float, 16> m;
-    for (std::size_t r = 0; r < 4; ++r)
-        for (std::size_t c = 0; c < 4; ++c) m[c * 4 + r] = static_cast<float>(rows[r][c]);
-    return m;
-}
-
-// `shift` moves the picture, in pixels.
-std::array<float, 16> eye_matrix(const MeshView& view, Vec2d shift) {
-    const Camera::Axes axes = view.camera.axes();
-    const double up = 1 / std::tan(view.camera.fov_y_rad / 2), across = up * view.height / view.width;
-    const double depth = view.far / (view.far - view.near);
-    const Vec3d w = axes.back * -1.0;
-    const Vec3d x = axes.right * across + w * (2 * shift.x / view.width), y = axes.up * -up + w * (2 * shift.y / view.height), z = w * depth;
-    const Vec3d& e = view.camera.eye;
-    return matrix({{{x.x, x.y, x.z, -dot(x, e)}, {y.x, y.y, y.z, -dot(y, e)}, {z.x, z.y, z.z, -dot(z, e) - depth * view.near}, {w.x, w.y, w.z, -dot(w, e)}}});
-}
-
 struct LightMatrices {
     std::array<float, 16> to_clip, to_texture;
 };
@@ -75,13 +50,6 @@ LightMatrices light_matrices(Vec3d to_light, double radius) {
     const Vec3d x = right * (1 / radius), y = up * (-1 / radius), z = back * (-1 / light_range);
     return {matrix({{{x.x, x.y, x.z, 0}, {y.x, y.y, y.z, 0}, {z.x, z.y, z.z, 0.5}, {0, 0, 0, 1}}}),
             matrix({{{x.x / 2, x.y / 2, x.z / 2, 0.5}, {y.x / 2, y.y / 2, y.z / 2, 0.5}, {z.x, z.y, z.z, 0.5}, {0, 0, 0, 1}}})};
-}
-
-// The i-th point of a sequence that fills the unit square evenly from its beginning (Roberts 2018, "The Unreasonable Effectiveness of
-// Quasirandom Sequences").
-Vec2d quasirandom(int i) {
-    const double x = 0.5 + i * 0.7548776662466927, y = 0.5 + i * 0.5698402909980532;
-    return {x - std::floor(x), y - std::floor(y)};
 }
 
 vk::raii::BufferView texel_view(const gpu::Device& device, const gpu::Buffer& buffer, vk::Format format) {
@@ -136,21 +104,21 @@ struct FurRenderer::State {
         const vk::VertexInputAttributeDescription attributes[] = {{.location = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(Vertex, position)},
                                                                   {.location = 1, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(Vertex, normal)},
                                                                   {.location = 2, .format = vk::Format::eR32G32B32A32Sfloat, .offset = offsetof(Vertex, comb)}};
-        gpu::DrawPipeline settings{.vertex = words_of("shells/skin.vert"),
-                                   .fragment = words_of("shells/skin.frag"),
+        gpu::DrawPipeline settings{.vertex = program_words("shells/skin.vert"),
+                                   .fragment = program_words("shells/skin.frag"),
                                    .targets = std::span(&colour_format, 1),
                                    .attributes = attributes,
                                    .vertex_bytes = sizeof(Vertex),
                                    .depth = depth_format};
         skin = gpu::make_pipeline(device, *layout, settings);
-        settings.vertex = words_of("shells/strands.vert");
-        settings.fragment = words_of("shells/strands.frag");
+        settings.vertex = program_words("shells/strands.vert");
+        settings.fragment = program_words("shells/strands.frag");
         for (std::uint32_t curled = 0; curled < 2; ++curled) {
             settings.fragment_constants = std::span(&curled, 1);
             strands[curled] = gpu::make_pipeline(device, *layout, settings);
         }
         light = gpu::make_pipeline(device, *layout,
-                                   gpu::DrawPipeline{.vertex = words_of("shells/light.vert"), .attributes = attributes, .vertex_bytes = sizeof(Vertex), .depth = depth_format});
+                                   gpu::DrawPipeline{.vertex = program_words("shells/light.vert"), .attributes = attributes, .vertex_bytes = sizeof(Vertex), .depth = depth_format});
         const auto sampler = [&](vk::Filter filter, vk::SamplerAddressMode mode) {
             return vk::raii::Sampler(device.handle(), vk::SamplerCreateInfo{.magFilter = filter, .minFilter = filter, .addressModeU = mode, .addressModeV = mode, .addressModeW = mode});
         };
@@ -314,11 +282,6 @@ FurFrames FurRenderer::draw(const FurView& view) {
         s.coat.rim_y = static_cast<float>(rim.y);
         s.coat.rim_z = static_cast<float>(rim.z);
 
-        std::array<float, 256> linear;
-        for (std::size_t i = 0; i < 256; ++i) {
-            const double v = static_cast<double>(i) / 255;
-            linear[i] = static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
-        }
         FurFrames frames;
         frames.colour = ImageF(camera.width, camera.height, 3);
         frames.coverage = ImageF(camera.width, camera.height, 1);
@@ -355,15 +318,7 @@ FurFrames FurRenderer::draw(const FurView& view) {
                 gpu::transition(commands, colour, vk::ImageLayout::eColorAttachmentOptimal, vk::ImageLayout::eTransferSrcOptimal);
                 gpu::read_back(commands, colour, texels);
             });
-            const auto* from = texels.as<std::uint8_t>();
-            const float weight = 1 / static_cast<float>(view.passes);
-            parallel_for(static_cast<int>(pixels), 65536, 0, [&](int begin, int end) {
-                for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
-                    if (from[p * 4 + 3] == 0) continue;
-                    for (std::size_t c = 0; c < 3; ++c) frames.colour.texels[p * 3 + c] += weight * linear[from[p * 4 + c]];
-                    frames.coverage.texels[p] += weight;
-                }
-            });
+            add_pass(frames, {texels.as<std::uint8_t>(), pixels * 4}, view.passes);
             frames.frame_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
         }
         return frames;

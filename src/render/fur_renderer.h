@@ -1,11 +1,10 @@
 // Fur in shells, headless: the mesh, its layers, and light that finds its way between strands.
 #pragma once
 
-#include "core/image.h"
 #include "core/mesh.h"
 #include "fur/coat.h"
 #include "fur/strand_grid.h"
-#include "render/mesh_renderer.h"
+#include "render/fur_frames.h"
 
 #include <memory>
 #include <string>
@@ -21,20 +20,6 @@ struct FurModel {
     const StrandGrid* grid = nullptr;
     Coat coat;
     float spacing = 0.01f;               // mean distance between roots
-};
-
-struct FurView {
-    MeshView camera;
-    Vec3d to_key{-0.45, 0.75, 0.55};  // toward the key light, of any length
-    Vec3d to_rim{0.6, 0.35, -0.8};
-    int layers = 16;  // at least 1
-    int passes = 8;   // frames with their pixels' samples moved, averaged; at least 1
-};
-
-struct FurFrames {
-    ImageF colour;    // 3 channels, linear light, premultiplied by coverage: the backdrop is missing
-    ImageF coverage;  // 1 channel, share of the pixel's samples that fur or skin covers
-    std::vector<double> frame_ms;  // of each pass, from its submission to its picture in memory
 };
 
 // How far a strand may be from where its root alone would put it, in fur space.

@@ -34,13 +34,6 @@ struct Push {
 };
 static_assert(sizeof(Push) == 96);
 
-std::span<const std::uint32_t> words_of(std::string_view host) {
-    const auto all = programs();
-    const auto it = std::ranges::find(all, host, &Program::host);
-    assert(it != all.end());
-    return it->words;
-}
-
 // Clip space has y down the screen and depth from 0 at the near plane to 1 at the far one. Columns first.
 Push push_of(const MeshView& view) {
     const Camera::Axes axes = view.camera.axes();
@@ -115,8 +108,8 @@ struct MeshRenderer::State {
             {.location = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(Vertex, position)},
             {.location = 1, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(Vertex, normal)}};
         pipeline = gpu::make_pipeline(device, *layout,
-                                      gpu::DrawPipeline{.vertex = words_of("mesh/phong.vert"),
-                                                        .fragment = words_of("mesh/phong.frag"),
+                                      gpu::DrawPipeline{.vertex = program_words("mesh/phong.vert"),
+                                                        .fragment = program_words("mesh/phong.frag"),
                                                         .targets = std::span(&colour_format, 1),
                                                         .attributes = attributes,
                                                         .vertex_bytes = sizeof(Vertex),

@@ -15,4 +15,7 @@ struct Program {
 
 std::span<const Program> programs();
 
+// Of a host that runs no technique.
+std::span<const std::uint32_t> program_words(std::string_view host);
+
 }  // namespace relievo

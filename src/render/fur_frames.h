@@ -1,0 +1,30 @@
+// What is asked of everything that draws fur, and what it returns.
+#pragma once
+
+#include "core/image.h"
+#include "render/mesh_renderer.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace relievo {
+
+struct FurView {
+    MeshView camera;
+    Vec3d to_key{-0.45, 0.75, 0.55};  // toward the key light, of any length
+    Vec3d to_rim{0.6, 0.35, -0.8};
+    int layers = 16;  // at least 1
+    int passes = 8;   // frames with their pixels' samples moved, averaged; at least 1
+};
+
+struct FurFrames {
+    ImageF colour;    // 3 channels, linear light, premultiplied by coverage: the backdrop is missing
+    ImageF coverage;  // 1 channel, share of the pixel's samples that fur or skin covers
+    std::vector<double> frame_ms;  // of each pass, from its submission to its picture in memory
+};
+
+// Adds one of `passes` pictures, RGBA as the device wrote it: colours sRGB-encoded and premultiplied by alpha. Frames begin as zeros.
+void add_pass(FurFrames& frames, std::span<const std::uint8_t> rgba, int passes);
+
+}  // namespace relievo
