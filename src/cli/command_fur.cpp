@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 
+#include "cli/classic_options.h"
 #include "cli/progress_display.h"
 #include "core/error.h"
 #include "core/suggest.h"
@@ -61,7 +62,11 @@ Json fur_json(const FurPicture& p, const std::string& preset, const std::string&
                                {"gaps", rounded(p.score->gaps)},
                                {"samples", p.score->samples},
                                {"ms", rounded(p.score->reference_ms)}};
-    return {{"mode", "strands"},
+    if (p.light) report["light"] = classic_report(p);
+    std::string_view mode;
+    for (const FurMode& m : fur_modes)
+        if (m.kind == p.mode) mode = m.id;
+    return {{"mode", mode},
             {"preset", preset},
             {"faces", p.faces},
             {"strands", p.strands},
@@ -77,6 +82,12 @@ Json fur_json(const FurPicture& p, const std::string& preset, const std::string&
 std::string preset_list() {
     std::string text;
     for (const CoatPreset& p : coat_presets()) text += (text.empty() ? "" : "; ") + std::string(p.id) + ": " + std::string(p.summary);
+    return text;
+}
+
+std::string mode_list() {
+    std::string text;
+    for (const FurMode& m : fur_modes) text += (text.empty() ? "" : "; ") + std::string(m.id) + ": " + std::string(m.summary);
     return text;
 }
 
@@ -96,7 +107,8 @@ void add_fur_command(CLI::App& app) {
     struct Options {
         std::string in, out, reference, mode = "strands", preset, layers = "auto", device;
         std::vector<std::string> set;
-        double height = 0, density = 100;
+        double height = 0, density = 0;
+        ClassicOptions classic;
         std::vector<int> size{1280, 800};
         int samples = 16;
         FurSettings fur;
@@ -105,14 +117,17 @@ void add_fur_command(CLI::App& app) {
     auto o = std::make_shared<Options>();
     auto* verb = app.add_subcommand("fur", "Grows fur on any mesh and draws it");
     verb->add_option("in", o->in, "mesh to read: OBJ, PLY, OFF, STL, glTF, GLB or our cache, each also as .gz")->required();
-    verb->add_option("--mode", o->mode, "strands: each strand found where it stands, no texture")->check(CLI::IsMember({"strands"}))->capture_default_str();
+    std::vector<std::string> modes;
+    for (const FurMode& m : fur_modes) modes.emplace_back(m.id);
+    verb->add_option("--mode", o->mode, mode_list())->check(CLI::IsMember(modes))->capture_default_str();
     verb->add_option("--preset", o->preset, preset_list());
     verb->add_option("--layers", o->layers, "1 to 64, or auto: as many as the fur is long in the picture")->capture_default_str();
     verb->add_option("--height", o->height, "length of the longest strand, in percent of the radius of the mesh's smallest sphere")->check(CLI::Range(0.2, 50.0));
-    verb->add_option("--density", o->density, "strands, in percent of the preset's")->check(CLI::Range(0.1, 2000.0))->capture_default_str();
+    verb->add_option("--density", o->density, "strands, in percent of the preset's (default 100); in mode classic, in percent of the fur map's texels (default 20)")->check(CLI::Range(0.1, 2000.0));
     verb->add_option("--set", o->set, "NAME=VALUE, a setting of the coat; may be repeated")->take_all();
     verb->add_option("--size", o->size, "of the picture, pixels across and down")->expected(2);
     verb->add_option("--passes", o->fur.passes, "frames averaged into the picture, each with its samples elsewhere")->check(CLI::Range(1, 1024))->capture_default_str();
+    add_classic_options(*verb, o->classic);
     verb->add_option("--device", o->device, "that draws: software, or part of a device's name (relievo list devices)");
     verb->add_option("--threads", o->fur.threads, "0: all cores")->check(CLI::Range(0, 1024))->capture_default_str();
     verb->add_option("--reference", o->reference, "FILE.png: beside the picture the same strands as curves, ray traced with shadows; --json then has the difference");
@@ -124,16 +139,20 @@ void add_fur_command(CLI::App& app) {
                  "  relievo fur dragon.ply.gz --preset fox --out dragon.png --json\n"
                  "  relievo fur scan.stl --preset otter --height 4 --density 150 --set lock=0.4 --out wet.png\n"
                  "  relievo fur bunny.obj --size 640 400 --reference beside.png --samples 32 --json\n"
+                 "  relievo fur bunny.obj --mode classic --layers 8 --height 2 --density 10 --out 2009.png\n"
                  "  relievo fur cow.obj --layers 32 --size 640 400 --passes 1 --out quick.png\n\n" +
-                 knob_list());
+                 knob_list() + classic_knob_list());
     verb->callback([o] {
         if (o->out.empty() && o->reference.empty() && !o->json) throw UsageError("fur needs --out FILE.png for the picture, or --json to measure without one");
         FurSettings& s = o->fur;
         const CoatPreset& preset = preset_of(o->preset);
         s.coat = preset.coat;
         if (o->height > 0) s.coat.length = static_cast<float>(o->height / 100);
-        s.coat.strands = std::max(1.0f, s.coat.strands * static_cast<float>(o->density / 100));
-        for (const std::string& setting : o->set) set_knob(s.coat, setting);
+        const bool classic = o->mode == "classic";
+        if (!classic) {
+            if (o->density > 0) s.coat.strands = std::max(1.0f, s.coat.strands * static_cast<float>(o->density / 100));
+            for (const std::string& setting : o->set) set_knob(s.coat, setting);
+        }
         if (o->layers != "auto") {
             const auto [end, fault] = std::from_chars(o->layers.data(), o->layers.data() + o->layers.size(), s.layers);
             if (fault != std::errc{} || end != o->layers.data() + o->layers.size() || s.layers < 1 || s.layers > 64)
@@ -145,7 +164,8 @@ void add_fur_command(CLI::App& app) {
         s.device = o->device;
         s.measure = o->json;
         if (!o->reference.empty()) s.reference_samples = o->samples;
-        const FurPicture p = fur_picture(o->in, s, progress_display(o->quiet));
+        const FurPicture p = classic ? classic_picture(o->in, classic_settings(o->classic, s, o->height, o->density, o->set), progress_display(o->quiet))
+                                     : fur_picture(o->in, s, progress_display(o->quiet));
         if (!o->out.empty()) write_fur_picture(o->out, p.picture);
         if (!o->reference.empty()) write_fur_picture(o->reference, p.beside);
         if (!o->quiet)

@@ -17,9 +17,11 @@ Image make_image(const Device& device, vk::Format format, vk::Extent2D extent, s
     image.format = format;
     image.extent = extent;
     image.levels = levels;
-    image.layers = std::max(1u, layers);
+    const bool cube = layers == cube_layers;
+    image.layers = cube ? 6 : std::max(1u, layers);
     if (usage & vk::ImageUsageFlagBits::eDepthStencilAttachment) image.aspect = vk::ImageAspectFlagBits::eDepth;
-    image.handle = vk::raii::Image(device.handle(), vk::ImageCreateInfo{.imageType = vk::ImageType::e2D,
+    image.handle = vk::raii::Image(device.handle(), vk::ImageCreateInfo{.flags = cube ? vk::ImageCreateFlagBits::eCubeCompatible : vk::ImageCreateFlags{},
+                                                                        .imageType = vk::ImageType::e2D,
                                                                         .format = format,
                                                                         .extent = {extent.width, extent.height, 1},
                                                                         .mipLevels = levels,
@@ -36,7 +38,9 @@ Image make_image(const Device& device, vk::Format format, vk::Extent2D extent, s
     image.handle.bindMemory(*image.memory, 0);
     image.view = vk::raii::ImageView(
         device.handle(), vk::ImageViewCreateInfo{.image = *image.handle,
-                                                 .viewType = layers == 0 ? vk::ImageViewType::e2D : vk::ImageViewType::e2DArray,
+                                                 .viewType = cube          ? vk::ImageViewType::eCube
+                                                             : layers == 0 ? vk::ImageViewType::e2D
+                                                                           : vk::ImageViewType::e2DArray,
                                                  .format = format,
                                                  .subresourceRange = {image.aspect, 0, levels, 0, image.layers}});
     return image;

@@ -20,7 +20,8 @@ struct Image {
     vk::ImageAspectFlags aspect = vk::ImageAspectFlagBits::eColor;  // depth for depth formats
 };
 
-// layers: 0 for a plain image, else of an array.
+// layers: 0 for a plain image, else of an array; cube_layers for a cube, its faces in the order +x -x +y -y +z -z.
+inline constexpr std::uint32_t cube_layers = ~0u;
 Image make_image(const Device& device, vk::Format format, vk::Extent2D extent, std::uint32_t levels, vk::ImageUsageFlags usage,
                  std::uint32_t layers = 0);
 

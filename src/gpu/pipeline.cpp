@@ -42,7 +42,14 @@ vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout
     const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
     const vk::PipelineRasterizationStateCreateInfo raster{.lineWidth = 1};
     const vk::PipelineMultisampleStateCreateInfo one_sample{.rasterizationSamples = vk::SampleCountFlagBits::e1};
-    const vk::PipelineColorBlendAttachmentState write_all{.colorWriteMask = vk::FlagTraits<vk::ColorComponentFlagBits>::allFlags};
+    const vk::PipelineColorBlendAttachmentState write_all{.blendEnable = settings.blended,
+                                                          .srcColorBlendFactor = vk::BlendFactor::eSrcAlpha,
+                                                          .dstColorBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha,
+                                                          .colorBlendOp = vk::BlendOp::eAdd,
+                                                          .srcAlphaBlendFactor = vk::BlendFactor::eOne,
+                                                          .dstAlphaBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha,
+                                                          .alphaBlendOp = vk::BlendOp::eAdd,
+                                                          .colorWriteMask = vk::FlagTraits<vk::ColorComponentFlagBits>::allFlags};
     const std::vector<vk::PipelineColorBlendAttachmentState> attachments(settings.targets.size(), write_all);
     const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = static_cast<std::uint32_t>(attachments.size()),
                                                       .pAttachments = attachments.data()};

@@ -1,4 +1,4 @@
-// Pipelines from SPIR-V: drawing into targets of given formats (dynamic rendering, no blending), and computing.
+// Pipelines from SPIR-V: drawing into targets of given formats (dynamic rendering), and computing.
 #pragma once
 
 #include "gpu/device.h"
@@ -16,6 +16,7 @@ struct DrawPipeline {
     std::span<const vk::VertexInputAttributeDescription> attributes = {};  // of binding 0; none: a strip made up by the vertex program
     std::uint32_t vertex_bytes = 0;                                        // of binding 0, which holds a list of triangles
     vk::Format depth = vk::Format::eUndefined;  // of a depth target that is tested (nearer wins) and written; undefined: there is none
+    bool blended = false;  // over what is there, by the alpha of what is drawn; the target's alpha is then what has been covered
 };
 
 vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout, const DrawPipeline& settings);

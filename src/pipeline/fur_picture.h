@@ -5,7 +5,9 @@
 #include "core/progress.h"
 #include "fur/coat.h"
 #include "fur/evenness.h"
+#include "fur/fur_modes.h"
 #include "pipeline/fur_score.h"
+#include "render/layers_renderer.h"
 
 #include <filesystem>
 #include <optional>
@@ -31,11 +33,13 @@ struct FurTimes {  // milliseconds
 };
 
 struct FurPicture {
+    FurKind mode = FurKind::strands;
     std::size_t faces = 0, strands = 0;
     int layers = 0, passes = 0;
     std::size_t layer_faces = 0;  // of the mesh that was pushed out
     std::optional<Evenness> evenness;
     std::optional<FurScore> score;
+    std::optional<LayersLight> light;  // of mode classic
     FurTimes ms;  // first_frame: from the loaded mesh to the first whole picture in memory, all steps in between included
     std::string device;
     Image8 picture;  // sRGB, rows top to bottom

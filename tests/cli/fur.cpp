@@ -88,6 +88,40 @@ TEST(Fur, ComparesItselfWithTracedStrands) {
     EXPECT_EQ(read_image_8(beside, FirstRow::top).width, 320);
 }
 
+TEST(Fur, ClassicKeepsTheSamePromise) {
+    if (!has_device()) GTEST_SKIP() << "no Vulkan device";
+    const Folder folder;
+    const std::string mesh = written(folder, "crooked.obj", "v 1 1 1\nv 2 -1 -1\nv -1 1 -1\nv -1 -1 3\nf 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 4 3\n"), tint = folder / "tint.png";
+    Image8 red(3, 2, 3);
+    for (std::size_t t = 0; t < red.texels.size(); t += 3) red.texels[t] = 200;
+    write_png(tint, red, FirstRow::top);
+    std::vector<std::string> pictures;
+    for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--addressing", "normal"}, {"--map", "sphere"}, {"--neighbourhood", "8"}, {"--seed", "2"}, {"--mips"},
+                                                 {"--map-size", "32"}, {"--set", "ambient=0.5"}, {"--layers", "4"}, {"--colour-map", tint}}) {
+        std::vector<std::string> all = {"fur", mesh, "--mode", "classic", "--quiet", "--size", "96", "64", "--passes", "1", "--density", "10", "--json", "--out", folder / "fur.png"};
+        all.insert(all.end(), more.begin(), more.end());
+        const Ended ended = run(all);
+        ASSERT_EQ(ended.code, 0) << ended.err;
+        const Json json = Json::parse(ended.out, nullptr, false);
+        std::vector<std::string> keys;
+        for (const auto& item : json.items()) keys.push_back(item.key());
+        EXPECT_EQ(keys, (std::vector<std::string>{"mode", "preset", "faces", "strands", "density_p95_over_p5", "shared_texel_area", "layers", "ms", "image", "report"}));
+        EXPECT_EQ(json["mode"], "classic");
+        EXPECT_EQ(json["faces"], 4);
+        EXPECT_GT(json["strands"].get<int>(), 100);
+        EXPECT_EQ(json["layers"], more.size() > 1 && more[0] == "--layers" ? 4 : 16);
+        for (const char* step : {"load", "roots", "first_frame", "frame_median"}) EXPECT_GT(json["ms"][step].get<double>(), 0) << step;
+        pictures.push_back(read_text(folder / "fur.png"));
+        for (std::size_t i = 0; i + 1 < pictures.size(); ++i) EXPECT_NE(pictures[i], pictures.back()) << i << ' ' << (more.empty() ? "" : more[0]);
+    }
+    const Ended scored = run({"fur", mesh, "--mode", "classic", "--quiet", "--size", "96", "64", "--passes", "4", "--map-size", "16", "--samples", "4", "--reference", folder / "beside.png", "--json"});
+    ASSERT_EQ(scored.code, 0) << scored.err;
+    const Json report = Json::parse(scored.out, nullptr, false)["report"];
+    EXPECT_GT(report["reference"]["flip"].get<double>(), 0);
+    EXPECT_LT(report["reference"]["flip"].get<double>(), 0.4);
+    EXPECT_NE(report["light"]["diffuse"], 1.0);  // fitted
+}
+
 TEST(Fur, RefusesWrongWordsWithAWayOn) {
     const Folder folder;
     const std::string mesh = tetrahedron_in(folder);
@@ -102,6 +136,14 @@ TEST(Fur, RefusesWrongWordsWithAWayOn) {
                  {{"--json", "--layers", "many"}, "auto"},
                  {{"--json", "--layers", "65"}, "1 to 64"},
                  {{"--json", "--mode", "feathers"}, "strands"},
+                 {{"--json", "--mode", "classic", "--map", "cub"}, "cube"},
+                 {{"--json", "--mode", "classic", "--map-size", "100"}, "power of two"},
+                 {{"--json", "--mode", "classic", "--addressing", "normals"}, "normal"},
+                 {{"--json", "--mode", "classic", "--neighbourhood", "-1"}, "0 to 64"},
+                 {{"--json", "--mode", "classic", "--neighbourhood", "six"}, "none"},
+                 {{"--json", "--mode", "classic", "--density", "150"}, "100 %"},
+                 {{"--json", "--mode", "classic", "--set", "tilt=1"}, "ambient"},
+                 {{"--json", "--mode", "classic", "--set", "power=0"}, "1 to 1000"},
                  {{"--json", "--height", "80"}, "50"}};
     for (const auto& c : cases) {
         std::vector<std::string> all{"fur", mesh};

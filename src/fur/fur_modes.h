@@ -1,0 +1,28 @@
+// The ways of growing fur that can be compared. Options, help, lists and chapters are loops over this table.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace relievo {
+
+enum class FurKind { strands, classic };
+
+struct FurMode {
+    FurKind kind;
+    std::string_view id, title;
+    std::string_view summary;  // one clause: what it does
+    std::string_view author;
+    int year;
+    std::string_view source;   // the title of the paper
+    std::string_view limits;   // where it fails
+};
+
+inline constexpr FurMode fur_modes[] = {
+    {FurKind::classic, "classic", "Layers by direction", "uniform layers, textured by a map that the normal and the position look up", "Evangelista", 2009,
+     "Renderização em tempo real de pelos aplicados sobre malhas tridimensionais arbitrárias obtidas de objetos reais", "strands are sparse where the surface is bent, and distant places share them"},
+    {FurKind::strands, "strands", "Strands in object space", "each strand found where it stands, no texture", "relievo", 2026, "docs/concepts/fur.md",
+     "strands that lean farther than their roots are apart are cut"},
+};
+
+}  // namespace relievo

@@ -1,0 +1,50 @@
+// A mesh file in fur as the 2009 thesis has it: layers textured by an environment map.
+#pragma once
+
+#include "fur/fur_map.h"
+#include "pipeline/fur_picture.h"
+#include "render/layers_renderer.h"
+
+#include <filesystem>
+
+namespace relievo {
+
+struct ClassicSettings {
+    MapShape shape = MapShape::cube;
+    Addressing addressing = Addressing::normal_plus_position;
+    FurMapSettings map{.density = 0.2};  // of each face; its width is the edge, a power of two
+    bool filtered = false;
+    float height = 0.05f;                // in radii
+    int layers = 16;
+    LayersLight light;
+    bool fit_light = false;              // to the reference, where there is one
+    Vec3f colour{0.5f, 0.4f, 0.3f};      // of the strands where there is no colour map, linear albedo
+    Vec3f skin{0.2f, 0.15f, 0.1f};
+    float gloss = 0.4f;                  // of the reference's strands
+    std::filesystem::path colour_map;    // a picture; empty: none
+    int width_px = 1280, height_px = 800;
+    int passes = 16;
+    std::string device;
+    bool measure = false;
+    int reference_samples = 0;
+    int threads = 0;
+};
+
+// The map of strands alone, each face with a seed of its own. Throws Error where the colour map cannot be read.
+DirectionMap classic_fur_map(const ClassicSettings& settings, std::vector<std::string>& notes);
+DirectionMap classic_colour_map(const ClassicSettings& settings);
+
+// Upright strands of even thickness: as many as `strands`, over an area of `area`, covering the share `density` of it.
+Coat upright_coat(const ClassicSettings& settings, std::size_t strands, double density);
+
+// The light of the layers that brings their picture nearest to the reference, by least squares over the pixels that either covers. The
+// picture is a sum of what the ambient, the diffuse and the specular light show and of the skin, so three numbers are a linear fit.
+LayersLight fitted_light(LayersRenderer& renderer, const FurView& view, const FurFrames& reference, const LayersLight& start);
+
+// `mesh` is in fur space and has unit normals.
+LayersModel classic_model(const ClassicSettings& settings, const Mesh& mesh, const DirectionMap& fur, const DirectionMap& colour);
+
+// Throws Error.
+FurPicture classic_picture(const std::filesystem::path& mesh, const ClassicSettings& settings, const Progress& progress = {});
+
+}  // namespace relievo
