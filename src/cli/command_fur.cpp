@@ -1,6 +1,7 @@
 #include "cli/commands.h"
 
 #include "cli/classic_options.h"
+#include "cli/growth_options.h"
 #include "cli/progress_display.h"
 #include "core/error.h"
 #include "core/suggest.h"
@@ -107,6 +108,7 @@ void add_fur_command(CLI::App& app) {
     struct Options {
         std::string in, out, reference, mode = "strands", preset, layers = "auto", device;
         std::vector<std::string> set;
+        GrowthOptions growth;
         double height = 0, density = 0;
         ClassicOptions classic;
         std::vector<int> size{1280, 800};
@@ -132,6 +134,7 @@ void add_fur_command(CLI::App& app) {
     verb->add_option("--threads", o->fur.threads, "0: all cores")->check(CLI::Range(0, 1024))->capture_default_str();
     verb->add_option("--reference", o->reference, "FILE.png: beside the picture the same strands as curves, ray traced with shadows; --json then has the difference");
     verb->add_option("--samples", o->samples, "rays a pixel of the reference")->check(CLI::Range(1, 4096))->capture_default_str();
+    add_growth_options(*verb, o->growth);
     verb->add_flag("--quiet", o->quiet, "no progress and no notes");
     verb->add_flag("--json", o->json, "print what was grown, how even it is and how long it took as JSON");
     verb->add_option("--out", o->out, "FILE.png");
@@ -140,10 +143,12 @@ void add_fur_command(CLI::App& app) {
                  "  relievo fur scan.stl --preset otter --height 4 --density 150 --set lock=0.4 --out wet.png\n"
                  "  relievo fur bunny.obj --size 640 400 --reference beside.png --samples 32 --json\n"
                  "  relievo fur bunny.obj --mode classic --layers 8 --height 2 --density 10 --out 2009.png\n"
+                 "  relievo fur bunny.obj --preset fox --density 20 --export fox.hair --export fox.ply\n"
                  "  relievo fur cow.obj --layers 32 --size 640 400 --passes 1 --out quick.png\n\n" +
                  knob_list() + classic_knob_list());
     verb->callback([o] {
-        if (o->out.empty() && o->reference.empty() && !o->json) throw UsageError("fur needs --out FILE.png for the picture, or --json to measure without one");
+        const bool drawn = !o->out.empty() || !o->reference.empty() || o->json;
+        if (!drawn && o->growth.exported.empty()) throw UsageError("fur needs --out FILE.png for the picture, --export FILE for the strands, or --json to measure without either");
         FurSettings& s = o->fur;
         const CoatPreset& preset = preset_of(o->preset);
         s.coat = preset.coat;
@@ -164,6 +169,11 @@ void add_fur_command(CLI::App& app) {
         s.device = o->device;
         s.measure = o->json;
         if (!o->reference.empty()) s.reference_samples = o->samples;
+        if (!o->growth.exported.empty()) {
+            if (classic) throw UsageError("--export writes strands, which --mode classic has none of");
+            export_as_asked(o->in, o->growth, s, o->quiet);
+            if (!drawn) return;
+        }
         const FurPicture p = classic ? classic_picture(o->in, classic_settings(o->classic, s, o->height, o->density, o->set), progress_display(o->quiet))
                                      : fur_picture(o->in, s, progress_display(o->quiet));
         if (!o->out.empty()) write_fur_picture(o->out, p.picture);

@@ -186,7 +186,7 @@ Roots grow_roots(const Mesh& mesh, const RootSettings& settings) {
     });
     double twice_area = 0;
     for (const double a : block_area) twice_area += a;
-    if (!(twice_area > 0) || !std::isfinite(twice_area)) throw Error("grow fur on", mesh.name.empty() ? "the mesh" : mesh.name, "its faces have no area");
+    if (!(twice_area > 0) || !std::isfinite(twice_area)) throw Error("grow fur on", mesh.name.empty() ? "the mesh" : mesh.name, "its faces have no area", "scan or save it again: every face is a line or a point, or its size is beyond numbers");
 
     Roots result;
     result.area = twice_area / 2;

@@ -2,17 +2,13 @@
 
 #include "assets/image_file.h"
 #include "assets/mesh_file.h"
-#include "core/error.h"
 #include "fur/comb.h"
 #include "fur/refined.h"
-#include "fur/roots.h"
-#include "fur/strand_curves.h"
 #include "fur/strand_grid.h"
 #include "mesh/normals.h"
-#include "mesh/repair.h"
 #include "mesh/simplify.h"
 #include "pipeline/fur_reference.h"
-#include "pipeline/fur_space.h"
+#include "pipeline/grown_fur.h"
 #include "render/fur_renderer.h"
 
 #include <algorithm>
@@ -68,18 +64,11 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
 
     const Timer timer;
     report(progress, "growing fur", 0.2);
-    mesh = in_fur_space(std::move(mesh), settings.threads);
-    Timer growing;
-    const RootSettings wanted{.count = static_cast<std::uint32_t>(settings.coat.strands), .threads = settings.threads};
-    Roots roots = grow_roots(mesh, wanted);
-    if (static_cast<double>(roots.roots.size()) < 0.8 * wanted.count && wanted.count > 500) {
-        // Faces lie on one another and had the area counted twice.
-        mesh = repaired(std::move(mesh), settings.threads).mesh;
-        if (mesh.faces() == 0) throw Error("grow fur on", file.filename().string(), "all its faces are collapsed or repeated");
-        roots = grow_roots(mesh, wanted);
-    }
-    result.ms.roots = growing.ms();
-    const auto spacing = static_cast<float>(std::sqrt(roots.area / static_cast<double>(std::max<std::size_t>(roots.roots.size(), 1))));
+    GrownFur fur = grown_fur(std::move(mesh), settings.coat, settings.threads);
+    const Mesh& grown = fur.mesh;
+    const Roots& roots = fur.roots;
+    const float spacing = fur.spacing;
+    result.ms.roots = fur.roots_ms;
 
     FurView view;
     view.camera = view_of_sphere({0, 0, 0}, 1 + settings.coat.length * 0.6, settings.width, settings.height);
@@ -88,28 +77,28 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
     // Roots must be found from the layers, and finding them farther off costs time: where faces would be off by more than a fifth of the
     // fur's length, there are more of them. Almost everywhere they are off by less than half of that worst case.
     SimplifiedMesh simpler;
-    const bool many = mesh.faces() > layer_faces(view.camera);
-    if (many) simpler = simplified(mesh, {.faces = layer_faces(view.camera), .error = settings.coat.length / 10.0}, settings.threads);
-    Mesh layers = many ? std::move(simpler.mesh) : mesh;
+    const bool many = grown.faces() > layer_faces(view.camera);
+    if (many) simpler = simplified(grown, {.faces = layer_faces(view.camera), .error = settings.coat.length / 10.0}, settings.threads);
+    Mesh layers = many ? std::move(simpler.mesh) : grown;
     layers.normals = continuous_normals(layers, NormalMode::angle, settings.threads);
     layers = refined(std::move(layers), layer_faces(view.camera));
     const std::vector<Vec3f> comb = combed(layers, mean_lean(settings.coat), settings.threads);
     result.ms.prepare = timer.ms() - result.ms.roots;
 
     const Timer step;
-    const StrandGrid grid = strand_grid(mesh, roots, {.reach = strand_reach(settings.coat, spacing, view.layers), .off = static_cast<float>(simpler.estimated_error / 2), .threads = settings.threads});
+    const StrandGrid grid = strand_grid(grown, roots, {.reach = strand_reach(settings.coat, spacing, view.layers), .off = static_cast<float>(simpler.estimated_error / 2), .threads = settings.threads});
     result.ms.grid = step.ms();
     renderer->load({.mesh = &layers, .comb = &comb, .grid = &grid, .coat = settings.coat, .spacing = spacing});
     report(progress, "drawing", 0.5);
     FurFrames frames = renderer->draw(view);
     result.picture = shown_fur(frames);
     result.ms.first_frame = timer.ms();
-    result.faces = mesh.faces();
+    result.faces = grown.faces();
     result.strands = roots.roots.size();
     result.layers = view.layers;
     result.passes = settings.passes;
     result.layer_faces = layers.faces();
-    result.notes = mesh.notes;
+    result.notes = grown.notes;
     if (settings.passes > 1) {
         view.passes = settings.passes;
         frames = renderer->draw(view);
@@ -118,9 +107,8 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
     if (settings.reference_samples > 0) {
         // On the mesh itself: what its simplification changes counts as an error of the layers.
         const Timer tracing;
-        mesh.normals = continuous_normals(mesh, NormalMode::angle, settings.threads);
-        const StrandCurves curves = strand_curves(mesh, combed(mesh, mean_lean(settings.coat), settings.threads), roots, settings.coat, spacing, 8, settings.threads);
-        const FurFrames reference = trace_fur(curves, mesh, settings.coat, view, settings.reference_samples, settings.threads, progress);
+        const StrandCurves curves = curves_of(fur, settings.coat, 8, settings.threads);
+        const FurFrames reference = trace_fur(curves, grown, settings.coat, view, settings.reference_samples, settings.threads, progress);
         result.score = fur_score(frames, reference, settings.threads);
         result.score->reference_ms = tracing.ms();
         result.score->samples = settings.reference_samples;
@@ -130,7 +118,7 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
     result.ms.frame_median = frames.frame_ms[frames.frame_ms.size() / 2];
     if (settings.measure) {
         report(progress, "measuring", 0.9);
-        result.evenness = evenness(mesh, roots, {}, {.extent = 1, .threads = settings.threads});
+        result.evenness = evenness(grown, roots, {}, {.extent = 1, .threads = settings.threads});
     }
     report(progress, "drawing", 1);
     return result;

@@ -1,6 +1,7 @@
 #include "pipeline/fur_reference.h"
 
 #include "core/parallel_for.h"
+#include "fur/strand_albedo.h"
 #include "reference/strand_tracer.h"
 
 #include <algorithm>
@@ -45,7 +46,7 @@ FurFrames trace_fur(const StrandCurves& curves, const Mesh& skin, const Coat& co
     frames.colour = ImageF(width, height, 3);
     frames.coverage = ImageF(width, height, 1);
     const Vec3d eye = view.camera.camera.eye, key = normalize(view.to_key), rim = normalize(view.to_rim);
-    const Vec3d root_colour(coat.root_colour), tip_colour(coat.tip_colour);
+    const Vec3d root_colour(coat.root_colour);
     const double gloss = coat.gloss;
 
     const auto strand_colour = [&](const StrandHit& hit, Vec3d to_eye, Vec3d at) {
@@ -54,11 +55,8 @@ FurFrames trace_fur(const StrandCurves& curves, const Mesh& skin, const Coat& co
         const auto piece = std::min(static_cast<std::size_t>(hit.way * curves.pieces), stride - 2);
         const std::size_t p = hit.index * stride + piece;
         const Vec3d axis = Vec3d(curves.points[p + 1]) - Vec3d(curves.points[p]), tangent = normalize(axis), normal(s.normal);
-        const double u = (s.chance & 255u) / 255.0, v = (s.chance >> 8) / 255.0, level = hit.way * static_cast<double>(s.tip);
-        Vec3d albedo = mixed(root_colour, tip_colour, std::sqrt(hit.way)) * (1 + coat.colour_variation * (2 * fraction(u * 5.3 + v * 3.1) - 1));
-        if (fraction(v * 13.7 + u) < static_cast<double>(coat.grizzle)) albedo = mixed(albedo, Vec3d(0.75), 0.7);
-        const double below = std::clamp(-normal.y, 0.0, 1.0);
-        albedo = mixed(albedo, {std::sqrt(albedo.x), std::sqrt(albedo.y), std::sqrt(albedo.z)}, coat.countershade * below) * (1 + 0.25 * static_cast<double>(s.sway));
+        const double level = hit.way * static_cast<double>(s.tip);
+        const Vec3d albedo = strand_albedo(coat, s, hit.way);
         const double occlusion = 0.18 + 0.82 * level;
         Vec3d shown = scaled(albedo, mixed({0.30, 0.27, 0.25}, {0.62, 0.70, 0.82}, 0.5 + 0.5 * normal.y)) * (0.55 * occlusion);
         const std::optional<int> crossed = tracer.strands_crossed(at, key, hit.index, most_strands);

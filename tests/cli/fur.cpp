@@ -6,8 +6,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 namespace relievo::test {
 namespace {
@@ -120,6 +124,38 @@ TEST(Fur, ClassicKeepsTheSamePromise) {
     EXPECT_GT(report["reference"]["flip"].get<double>(), 0);
     EXPECT_LT(report["reference"]["flip"].get<double>(), 0.4);
     EXPECT_NE(report["light"]["diffuse"], 1.0);  // fitted
+}
+
+TEST(Fur, ExportsItsStrandsWhereTheMeshIs) {
+    const Folder folder;
+    const std::string out = folder / "strands.obj";
+    const Ended ended = run({"fur", tetrahedron_in(folder), "--quiet", "--density", "0.5", "--set", "length=0.1", "--pieces", "3", "--export", out, "--export", folder / "strands.hair"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    std::istringstream text(read_text(out));
+    std::vector<std::array<double, 3>> points;
+    std::size_t strands = 0;
+    for (std::string line; std::getline(text, line);) {
+        std::istringstream words(line);
+        std::string kind;
+        words >> kind;
+        strands += kind == "l";
+        if (kind != "v") continue;
+        points.emplace_back();
+        for (double& v : points.back()) words >> v;
+    }
+    EXPECT_NEAR(static_cast<double>(strands), 1000, 100);
+    ASSERT_EQ(points.size(), strands * 4);
+    for (std::size_t i = 0; i < points.size(); i += 4) {
+        // On one of the planes x + y + z + 1 = 0, ... of the tetrahedron with corners (+-1, +-1, +-1) around (100, 0, 0).
+        const double x = points[i][0] - 100, y = points[i][1], z = points[i][2];
+        const double off = std::max({-x - y - z, -x + y + z, x - y + z, x + y - z});
+        EXPECT_NEAR(off, 1, 1e-3);
+        // No longer than a tenth of the radius, which is the square root of 3, and what the lock adds.
+        const double way = std::hypot(points[i + 3][0] - points[i][0], points[i + 3][1] - points[i][1], points[i + 3][2] - points[i][2]);
+        EXPECT_GT(way, 0.02);
+        EXPECT_LT(way, 0.25);
+    }
+    EXPECT_EQ(std::filesystem::file_size(std::filesystem::path(folder / "strands.hair")), 128 + strands * 2 + points.size() * 28);
 }
 
 TEST(Fur, RefusesWrongWordsWithAWayOn) {

@@ -1,0 +1,25 @@
+// What `relievo fur` takes to say how fur grows and where its strands go, beside the coat's own settings.
+#pragma once
+
+#include "pipeline/fur_picture.h"
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace relievo {
+
+struct GrowthOptions {
+    std::vector<std::string> exported;  // files
+    int pieces = 8;
+};
+
+void add_growth_options(CLI::App& verb, GrowthOptions& options);
+
+// Writes what --export names and says so. Throws Error.
+void export_as_asked(const std::string& mesh, const GrowthOptions& options, const FurSettings& fur, bool quiet);
+
+}  // namespace relievo

@@ -1,0 +1,29 @@
+// Fur as files that other programs open, in the space and the units of the mesh it grows on.
+#pragma once
+
+#include "core/progress.h"
+#include "fur/coat.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace relievo {
+
+struct FurExportSettings {
+    Coat coat;
+    int pieces = 8;   // straight ones of each strand, at least 1
+    int threads = 0;
+};
+
+struct FurExport {
+    std::size_t strands = 0, points = 0;
+    std::vector<std::string> notes;
+};
+
+// Writes the strands that `coat` grows on the mesh to each file, as its ending says: .hair, .obj or .ply (assets/strand_file.h). No device is
+// needed. Throws Error, before anything is grown for endings that are not known.
+FurExport export_fur(const std::filesystem::path& mesh, const std::vector<std::string>& files, const FurExportSettings& settings, const Progress& progress = {});
+
+}  // namespace relievo
