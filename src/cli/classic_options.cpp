@@ -29,6 +29,16 @@ constexpr LightKnob light_knobs[] = {
     {"power", &LayersLight::power, 1, 1000, "how narrow the mirrored light is"},
 };
 
+struct DdsCodeEntry {
+    DdsCode code;
+    std::string_view id, summary;
+};
+constexpr DdsCodeEntry dds_codes[] = {
+    {DdsCode::bc1, "bc1", "colours alone, 4 bits a texel"},
+    {DdsCode::bc3, "bc3", "colours and alpha, 8 bits a texel"},
+    {DdsCode::bc4, "bc4", "alpha alone, 4 bits a texel"},
+};
+
 // The entry of a table with ids.
 template <class Table>
 const auto& entry_of(const Table& table, std::string_view kind, const std::string& id) {
@@ -62,6 +72,9 @@ void add_classic_options(CLI::App& verb, ClassicOptions& o) {
     verb.add_option("--neighbourhood", o.neighbourhood, "where no strand grows beside another. " + described(neighbourhoods) + "; or a radius in texels")->capture_default_str()->group(group);
     verb.add_option("--seed", o.seed, "of the fur map")->capture_default_str()->group(group);
     verb.add_option("--colour-map", o.colour_map, "picture that tints the strands, as one of real fur (default: the preset's colour)")->group(group);
+    verb.add_option("--fur-map", o.fur_map, "FILE.dds or FILE.png: also write the map of strands, with all its levels as DDS")->group(group);
+    verb.add_option("--tinted-map", o.tinted_map, "FILE.dds or FILE.png: the same, tinted by the colour map")->group(group);
+    verb.add_option("--dds-code", o.dds_code, "of the DDS files. " + described(dds_codes))->capture_default_str()->group(group);
     verb.add_flag("--mips", o.filtered, "read the maps through their mip levels, not the finest alone")->group(group);
 }
 
@@ -101,6 +114,11 @@ ClassicSettings classic_settings(const ClassicOptions& o, const FurSettings& com
     }
     s.fit_light = set.empty();
     s.colour_map = o.colour_map;
+    for (const std::string& file : {o.fur_map, o.tinted_map})
+        if (!file.empty() && !file.ends_with(".dds") && !file.ends_with(".png")) throw UsageError("maps are written as FILE.dds or FILE.png, not as " + file);
+    s.fur_map_file = o.fur_map;
+    s.tinted_map_file = o.tinted_map;
+    s.dds_code = entry_of(dds_codes, "code", o.dds_code).code;
     s.colour = common.coat.tip_colour;
     s.skin = common.coat.root_colour;
     s.gloss = common.coat.gloss;

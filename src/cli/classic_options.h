@@ -15,7 +15,7 @@ class App;
 namespace relievo {
 
 struct ClassicOptions {
-    std::string map = "cube", addressing = "normal_plus_position", neighbourhood = "none", colour_map, fur_map;
+    std::string map = "cube", addressing = "normal_plus_position", neighbourhood = "none", colour_map, fur_map, tinted_map, dds_code = "bc3";
     int map_size = 256;
     std::uint32_t seed = 1;
     bool filtered = false;

@@ -147,7 +147,7 @@ void add_fur_command(CLI::App& app) {
                  "  relievo fur cow.obj --layers 32 --size 640 400 --passes 1 --out quick.png\n\n" +
                  knob_list() + classic_knob_list());
     verb->callback([o] {
-        const bool drawn = !o->out.empty() || !o->reference.empty() || o->json;
+        const bool drawn = !o->out.empty() || !o->reference.empty() || o->json || !o->classic.fur_map.empty() || !o->classic.tinted_map.empty();
         if (!drawn && o->growth.exported.empty()) throw UsageError("fur needs --out FILE.png for the picture, --export FILE for the strands, or --json to measure without either");
         FurSettings& s = o->fur;
         const CoatPreset& preset = preset_of(o->preset);

@@ -106,6 +106,20 @@ DirectionMap classic_colour_map(const ClassicSettings& s) {
     return direction_map(s.shape, std::vector(static_cast<std::size_t>(faces_of(s.shape)), face), true);
 }
 
+void write_fur_map(const std::filesystem::path& file, const DirectionMap& fur, const DirectionMap* colour, DdsCode code, int threads) {
+    std::vector<std::vector<Image8>> faces = fur.faces;
+    if (colour != nullptr)
+        for (std::size_t f = 0; f < faces.size(); ++f)
+            for (std::size_t k = 0; k < faces[f].size(); ++k)
+                for (std::size_t t = 0; t < faces[f][k].texels.size(); t += 4) std::copy_n(&colour->faces[f][k].texels[t], 3, &faces[f][k].texels[t]);
+    if (file.extension() == ".dds") return write_dds(file, faces, code, threads);
+    const int edge = fur.size();
+    Image8 strip(edge * static_cast<int>(faces.size()), edge, 4);
+    for (int f = 0; f < static_cast<int>(faces.size()); ++f)
+        for (int y = 0; y < edge; ++y) std::copy_n(faces[static_cast<std::size_t>(f)][0].at(0, y), edge * 4, strip.at(f * edge, y));
+    write_png(file, strip, FirstRow::top);
+}
+
 LayersModel classic_model(const ClassicSettings& s, const Mesh& mesh, const DirectionMap& fur, const DirectionMap& colour) {
     return {.mesh = &mesh, .fur = &fur, .colour = &colour, .addressing = s.addressing, .filtered = s.filtered, .height = s.height, .light = s.light, .skin = s.skin};
 }
@@ -192,6 +206,8 @@ FurPicture classic_picture(const std::filesystem::path& file, const ClassicSetti
     result.notes = mesh.notes;
     const DirectionMap fur = classic_fur_map(s, result.notes), colour = classic_colour_map(s);
     result.ms.roots = growing.ms();
+    if (!s.fur_map_file.empty()) write_fur_map(s.fur_map_file, fur, nullptr, s.dds_code, s.threads);
+    if (!s.tinted_map_file.empty()) write_fur_map(s.tinted_map_file, fur, &colour, s.dds_code, s.threads);
     renderer->load(classic_model(s, mesh, fur, colour));
     const FurView view{.camera = view_of_sphere({0, 0, 0}, 1 + static_cast<double>(s.height) * 0.6, s.width_px, s.height_px), .layers = s.layers, .passes = 1};
     FurView averaged = view;

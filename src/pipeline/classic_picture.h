@@ -1,6 +1,7 @@
 // A mesh file in fur as the 2009 thesis has it: layers textured by an environment map.
 #pragma once
 
+#include "assets/dds_file.h"
 #include "fur/fur_map.h"
 #include "pipeline/fur_picture.h"
 #include "render/layers_renderer.h"
@@ -22,6 +23,8 @@ struct ClassicSettings {
     Vec3f skin{0.2f, 0.15f, 0.1f};
     float gloss = 0.4f;                  // of the reference's strands
     std::filesystem::path colour_map;    // a picture; empty: none
+    std::filesystem::path fur_map_file, tinted_map_file;  // where the maps are written too; empty: nowhere
+    DdsCode dds_code = DdsCode::bc3;
     int width_px = 1280, height_px = 800;
     int passes = 16;
     std::string device;
@@ -40,6 +43,10 @@ Coat upright_coat(const ClassicSettings& settings, std::size_t strands, double d
 // The light of the layers that brings their picture nearest to the reference, by least squares over the pixels that either covers. The
 // picture is a sum of what the ambient, the diffuse and the specular light show and of the skin, so three numbers are a linear fit.
 LayersLight fitted_light(LayersRenderer& renderer, const FurView& view, const FurFrames& reference, const LayersLight& start);
+
+// Writes the maps as FILE.dds, block-compressed with all their levels, or as FILE.png: the finest level, a cube's faces side by side in the
+// order +x -x +y -y +z -z. With `colour` each texel is tinted by it; else RGB is white. `code` is for DDS. Throws Error.
+void write_fur_map(const std::filesystem::path& file, const DirectionMap& fur, const DirectionMap* colour, DdsCode code, int threads = 0);
 
 // `mesh` is in fur space and has unit normals.
 LayersModel classic_model(const ClassicSettings& settings, const Mesh& mesh, const DirectionMap& fur, const DirectionMap& colour);

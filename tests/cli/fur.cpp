@@ -118,6 +118,22 @@ TEST(Fur, ClassicKeepsTheSamePromise) {
         pictures.push_back(read_text(folder / "fur.png"));
         for (std::size_t i = 0; i + 1 < pictures.size(); ++i) EXPECT_NE(pictures[i], pictures.back()) << i << ' ' << (more.empty() ? "" : more[0]);
     }
+    const std::string strands = folder / "strands.png", tinted = folder / "tinted.dds";
+    const Ended mapped = run({"fur", mesh, "--mode", "classic", "--quiet", "--size", "96", "64", "--passes", "1", "--map", "sphere", "--map-size", "64", "--density", "25", "--neighbourhood", "4", "--colour-map", tint,
+                              "--fur-map", strands, "--tinted-map", tinted, "--out", folder / "fur.png"});
+    ASSERT_EQ(mapped.code, 0) << mapped.err;
+    const Image8 white = read_image_8(strands, FirstRow::top), coloured = read_image_8(tinted, FirstRow::top);
+    ASSERT_EQ(white.width, 64);
+    ASSERT_EQ(coloured.channels, 4);
+    int count = 0;
+    for (std::size_t t = 0; t < white.texels.size(); t += 4) {
+        ASSERT_EQ(white.texels[t], 255);
+        ASSERT_EQ(coloured.texels[t + 3], white.texels[t + 3]);
+        ASSERT_NEAR(coloured.texels[t], 200, 2);
+        ASSERT_EQ(coloured.texels[t + 1], 0);
+        count += white.texels[t + 3] == 255;
+    }
+    EXPECT_NEAR(count, 0.25 * 3.14159 / 4 * 64 * 64, 60);  // the disc's share of them
     const Ended scored = run({"fur", mesh, "--mode", "classic", "--quiet", "--size", "96", "64", "--passes", "4", "--map-size", "16", "--samples", "4", "--reference", folder / "beside.png", "--json"});
     ASSERT_EQ(scored.code, 0) << scored.err;
     const Json report = Json::parse(scored.out, nullptr, false)["report"];
@@ -179,6 +195,8 @@ TEST(Fur, RefusesWrongWordsWithAWayOn) {
                  {{"--json", "--mode", "classic", "--neighbourhood", "six"}, "none"},
                  {{"--json", "--mode", "classic", "--density", "150"}, "100 %"},
                  {{"--json", "--mode", "classic", "--set", "tilt=1"}, "ambient"},
+                 {{"--mode", "classic", "--fur-map", "map.jpg"}, "FILE.dds"},
+                 {{"--mode", "classic", "--fur-map", "map.dds", "--dds-code", "bc9"}, "bc1"},
                  {{"--json", "--mode", "classic", "--set", "power=0"}, "1 to 1000"},
                  {{"--json", "--height", "80"}, "50"}};
     for (const auto& c : cases) {
