@@ -56,7 +56,7 @@ double rounded(double v) { return std::round(v * 1e4) / 1e4; }
 Json number(double v) { return std::isfinite(v) ? Json(rounded(v)) : Json(); }
 
 Json fur_json(const FurPicture& p, const std::string& preset, const std::string& out) {
-    Json report = {{"device", p.device}, {"prepare_ms", rounded(p.ms.prepare)}, {"grid_ms", rounded(p.ms.grid)}, {"layer_faces", p.layer_faces}, {"passes", p.passes}, {"notes", p.notes}};
+    Json report = {{"device", p.device}, {"prepare_ms", rounded(p.ms.prepare)}, {"grid_ms", rounded(p.ms.grid)}, {"layer_faces", p.layer_faces}, {"bare", rounded(p.bare)}, {"passes", p.passes}, {"notes", p.notes}};
     if (p.score)
         report["reference"] = {{"flip", rounded(p.score->flip)},
                                {"coverage_error", rounded(p.score->coverage_error)},
@@ -143,9 +143,10 @@ void add_fur_command(CLI::App& app) {
                  "  relievo fur scan.stl --preset otter --height 4 --density 150 --set lock=0.4 --out wet.png\n"
                  "  relievo fur bunny.obj --size 640 400 --reference beside.png --samples 32 --json\n"
                  "  relievo fur bunny.obj --mode classic --layers 8 --height 2 --density 10 --out 2009.png\n"
+                 "  relievo fur spot.obj --grow-where mask@bald.png --grow-where up=-0.6..0.2 --out spot.png\n"
                  "  relievo fur bunny.obj --preset fox --density 20 --export fox.hair --export fox.ply\n"
                  "  relievo fur cow.obj --layers 32 --size 640 400 --passes 1 --out quick.png\n\n" +
-                 knob_list() + classic_knob_list());
+                 knob_list() + length_rule_list() + classic_knob_list());
     verb->callback([o] {
         const bool drawn = !o->out.empty() || !o->reference.empty() || o->json || !o->classic.fur_map.empty() || !o->classic.tinted_map.empty();
         if (!drawn && o->growth.exported.empty()) throw UsageError("fur needs --out FILE.png for the picture, --export FILE for the strands, or --json to measure without either");
@@ -169,6 +170,8 @@ void add_fur_command(CLI::App& app) {
         s.device = o->device;
         s.measure = o->json;
         if (!o->reference.empty()) s.reference_samples = o->samples;
+        s.lengths = length_rules_of(o->growth);
+        if (classic && !s.lengths.empty()) throw UsageError("--grow-where is for strands, not for --mode classic");
         if (!o->growth.exported.empty()) {
             if (classic) throw UsageError("--export writes strands, which --mode classic has none of");
             export_as_asked(o->in, o->growth, s, o->quiet);

@@ -13,11 +13,18 @@ class App;
 namespace relievo {
 
 struct GrowthOptions {
+    std::vector<std::string> where;     // rules of length
     std::vector<std::string> exported;  // files
     int pieces = 8;
 };
 
 void add_growth_options(CLI::App& verb, GrowthOptions& options);
+
+// The rules that --grow-where asks for. Throws UsageError.
+std::vector<LengthRule> length_rules_of(const GrowthOptions& options);
+
+// What --grow-where knows, a line each.
+std::string length_rule_list();
 
 // Writes what --export names and says so. Throws Error.
 void export_as_asked(const std::string& mesh, const GrowthOptions& options, const FurSettings& fur, bool quiet);

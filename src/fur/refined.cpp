@@ -14,6 +14,7 @@ Mesh once(const Mesh& mesh) {
     fine.name = mesh.name;
     fine.positions = mesh.positions;
     fine.normals = mesh.normals;
+    fine.uvs = mesh.uvs;
     fine.indices.reserve(mesh.indices.size() * 4);
     std::unordered_map<std::uint64_t, std::uint32_t> middles;
     const auto middle = [&](std::uint32_t a, std::uint32_t b) {
@@ -22,6 +23,7 @@ Mesh once(const Mesh& mesh) {
             fine.positions.push_back((mesh.positions[a] + mesh.positions[b]) * 0.5f);
             const Vec3f sum = mesh.normals[a] + mesh.normals[b];
             const float l = length(sum);
+            if (!mesh.uvs.empty()) fine.uvs.push_back((mesh.uvs[a] + mesh.uvs[b]) * 0.5f);
             fine.normals.push_back(l > 1e-3f ? sum / l : mesh.normals[std::min(a, b)]);
         }
         return at->second;

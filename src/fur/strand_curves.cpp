@@ -10,8 +10,9 @@
 
 namespace relievo {
 
-StrandCurves strand_curves(const Mesh& mesh, const std::vector<Vec3f>& comb, const Roots& roots, const Coat& coat, double spacing, int pieces, int threads) {
+StrandCurves strand_curves(const Mesh& mesh, const std::vector<Vec3f>& comb, const Roots& roots, const Coat& coat, double spacing, int pieces, int threads, const SkinValues& skin) {
     assert(mesh.normals.size() == mesh.positions.size() && comb.size() == mesh.positions.size() && pieces >= 1);
+    assert(skin.lengths.empty() || skin.lengths.size() == mesh.positions.size());
     const LockNoise noise = lock_noise();
     const double frequency = 1 / (static_cast<double>(coat.lock_size) * LockNoise::hills);
     StrandCurves curves;
@@ -42,7 +43,8 @@ StrandCurves strand_curves(const Mesh& mesh, const std::vector<Vec3f>& comb, con
             s.tip = guard ? 1.0f : 1 - coat.length_variation * static_cast<float>(a);
             const Vec3d lean = (side * (fraction(7 * a) - 0.5) + other * (fraction(11 * b) - 0.5)) * (2.0 * static_cast<double>(coat.spread));
 
-            const double full = coat.length, start = coat.tilt * combed, turn = std::max(coat.bend * combed, 1e-3);
+            const double share = skin.lengths.empty() ? 1.0 : static_cast<double>(skin.lengths[v[0]] * w.x + skin.lengths[v[1]] * w.y + skin.lengths[v[2]] * w.z);
+            const double full = coat.length * share, start = coat.tilt * combed, turn = std::max(coat.bend * combed, 1e-3);
             for (int k = 0; k <= pieces; ++k) {
                 const double way = static_cast<double>(k) / pieces, level = way * static_cast<double>(s.tip);
                 // The place on the skin that the lock has carried the root to: it solves place = root + sway(place), by repetition.

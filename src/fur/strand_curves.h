@@ -6,6 +6,7 @@
 #include "fur/roots.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace relievo {
@@ -23,9 +24,15 @@ struct StrandCurves {
     std::vector<Strand> strands;
 };
 
+// What sets places of the skin apart beside the comb, a value for each vertex.
+struct SkinValues {
+    std::span<const float> lengths{};  // shares of the coat's length, in [0,1]; empty: 1 everywhere
+};
+
 // The strands that grow from the roots; docs/concepts/fur.md has the formulas. In double, from the same numbers as the programs that draw
 // layers but not from their text. The mesh has unit normals and `comb` a vector per vertex; `spacing` is the mean distance of roots. Does
 // not depend on `threads`.
-StrandCurves strand_curves(const Mesh& mesh, const std::vector<Vec3f>& comb, const Roots& roots, const Coat& coat, double spacing, int pieces = 8, int threads = 0);
+StrandCurves strand_curves(const Mesh& mesh, const std::vector<Vec3f>& comb, const Roots& roots, const Coat& coat, double spacing, int pieces = 8, int threads = 0,
+                           const SkinValues& skin = {});
 
 }  // namespace relievo

@@ -38,7 +38,7 @@ FurExport export_fur(const std::filesystem::path& mesh, const std::vector<std::s
         if (const std::string ending = std::filesystem::path(file).extension(); ending != ".hair" && ending != ".obj" && ending != ".ply")
             throw Error("export fur to", file, "its ending names no format of fur", "known: hair, obj, ply");
     report(progress, "loading " + mesh.filename().string(), 0);
-    GrownFur fur = grown_fur(load_mesh(mesh, settings.threads), settings.coat, settings.threads);
+    GrownFur fur = grown_fur(load_mesh(mesh, settings.threads), settings.coat, with_masks(settings.lengths), settings.threads);
     report(progress, "growing strands", 0.3);
     const StrandCurves curves = curves_of(fur, settings.coat, settings.pieces, settings.threads);
     const StrandLines lines = lines_of(curves, settings.coat, fur.sphere, settings.threads);

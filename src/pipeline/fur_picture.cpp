@@ -3,6 +3,7 @@
 #include "assets/image_file.h"
 #include "assets/mesh_file.h"
 #include "fur/comb.h"
+#include "fur/likeness.h"
 #include "fur/refined.h"
 #include "fur/strand_grid.h"
 #include "mesh/normals.h"
@@ -64,7 +65,7 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
 
     const Timer timer;
     report(progress, "growing fur", 0.2);
-    GrownFur fur = grown_fur(std::move(mesh), settings.coat, settings.threads);
+    GrownFur fur = grown_fur(std::move(mesh), settings.coat, with_masks(settings.lengths), settings.threads);
     const Mesh& grown = fur.mesh;
     const Roots& roots = fur.roots;
     const float spacing = fur.spacing;
@@ -77,24 +78,36 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
     // Roots must be found from the layers, and finding them farther off costs time: where faces would be off by more than a fifth of the
     // fur's length, there are more of them. Almost everywhere they are off by less than half of that worst case.
     SimplifiedMesh simpler;
+    Mesh carrier;  // with shares of length for texture coordinates, so that they go through all that is done to layers
+    if (!fur.lengths.empty()) {
+        carrier = grown;
+        carrier.uvs.clear();
+        carrier.colours.clear();
+        for (const float share : fur.lengths) carrier.uvs.emplace_back(share, 0.0f);
+    }
+    const Mesh& skin = fur.lengths.empty() ? grown : carrier;
     const bool many = grown.faces() > layer_faces(view.camera);
-    if (many) simpler = simplified(grown, {.faces = layer_faces(view.camera), .error = settings.coat.length / 10.0}, settings.threads);
-    Mesh layers = many ? std::move(simpler.mesh) : grown;
+    if (many) simpler = simplified(skin, {.faces = layer_faces(view.camera), .error = settings.coat.length / 10.0}, settings.threads);
+    Mesh layers = many ? std::move(simpler.mesh) : skin;
     layers.normals = continuous_normals(layers, NormalMode::angle, settings.threads);
     layers = refined(std::move(layers), layer_faces(view.camera));
     const std::vector<Vec3f> comb = combed(layers, mean_lean(settings.coat), settings.threads);
+    std::vector<float> lengths;
+    if (!fur.lengths.empty())
+        for (const Vec2f& uv : layers.uvs) lengths.push_back(uv.x);
     result.ms.prepare = timer.ms() - result.ms.roots;
 
     const Timer step;
     const StrandGrid grid = strand_grid(grown, roots, {.reach = strand_reach(settings.coat, spacing, view.layers), .off = static_cast<float>(simpler.estimated_error / 2), .threads = settings.threads});
     result.ms.grid = step.ms();
-    renderer->load({.mesh = &layers, .comb = &comb, .grid = &grid, .coat = settings.coat, .spacing = spacing});
+    renderer->load({.mesh = &layers, .comb = &comb, .lengths = lengths.empty() ? nullptr : &lengths, .grid = &grid, .coat = settings.coat, .spacing = spacing});
     report(progress, "drawing", 0.5);
     FurFrames frames = renderer->draw(view);
     result.picture = shown_fur(frames);
     result.ms.first_frame = timer.ms();
     result.faces = grown.faces();
     result.strands = roots.roots.size();
+    result.bare = static_cast<double>(fur.bare) / static_cast<double>(fur.bare + roots.roots.size());
     result.layers = view.layers;
     result.passes = settings.passes;
     result.layer_faces = layers.faces();
@@ -108,7 +121,7 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
         // On the mesh itself: what its simplification changes counts as an error of the layers.
         const Timer tracing;
         const StrandCurves curves = curves_of(fur, settings.coat, 8, settings.threads);
-        const FurFrames reference = trace_fur(curves, grown, settings.coat, view, settings.reference_samples, settings.threads, progress);
+        const FurFrames reference = trace_fur(curves, grown, settings.coat, view, settings.reference_samples, settings.threads, progress, fur.lengths);
         result.score = fur_score(frames, reference, settings.threads);
         result.score->reference_ms = tracing.ms();
         result.score->samples = settings.reference_samples;
@@ -118,7 +131,12 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
     result.ms.frame_median = frames.frame_ms[frames.frame_ms.size() / 2];
     if (settings.measure) {
         report(progress, "measuring", 0.9);
-        result.evenness = evenness(grown, roots, {}, {.extent = 1, .threads = settings.threads});
+        // How even strands are is asked of the places where they grow: with those that bare skin lacks.
+        const Roots all = fur.bare > 0 ? grow_roots(grown, {.count = static_cast<std::uint32_t>(settings.coat.strands), .threads = settings.threads}) : Roots{};
+        const Roots& measured = fur.bare > 0 ? all : roots;
+        std::vector<std::uint32_t> chances;
+        for (const Root& root : measured.roots) chances.push_back(strand_chance(root.position));
+        result.evenness = evenness(grown, measured, likeness(measured, chances, settings.threads), {.extent = 1, .threads = settings.threads});
     }
     report(progress, "drawing", 1);
     return result;

@@ -5,6 +5,7 @@
 #include "core/progress.h"
 #include "fur/coat.h"
 #include "fur/evenness.h"
+#include "fur/length_rules.h"
 #include "fur/fur_modes.h"
 #include "pipeline/fur_score.h"
 #include "render/layers_renderer.h"
@@ -19,6 +20,7 @@ namespace relievo {
 struct FurSettings {
     std::string preset;     // empty: the first
     Coat coat;              // as the preset says, changed by options
+    std::vector<LengthRule> lengths;  // where fur is shorter; masks are read here
     int layers = 0;         // 0: as many as the length of the fur in the picture asks for
     int width = 1280, height = 800;
     int passes = 16;        // averaged into the picture
@@ -35,6 +37,7 @@ struct FurTimes {  // milliseconds
 struct FurPicture {
     FurKind mode = FurKind::strands;
     std::size_t faces = 0, strands = 0;
+    double bare = 0;  // share of the surface where nothing grows, as roots that were left out tell
     int layers = 0, passes = 0;
     std::size_t layer_faces = 0;  // of the mesh that was pushed out
     std::optional<Evenness> evenness;

@@ -39,7 +39,8 @@ double radical_inverse(std::uint32_t i, std::uint32_t base) {
 
 }  // namespace
 
-FurFrames trace_fur(const StrandCurves& curves, const Mesh& skin, const Coat& coat, const FurView& view, int samples, int threads, const Progress& progress) {
+FurFrames trace_fur(const StrandCurves& curves, const Mesh& skin, const Coat& coat, const FurView& view, int samples, int threads, const Progress& progress,
+                    std::span<const float> lengths) {
     const StrandTracer tracer({.pieces = curves.pieces, .points = curves.points, .radii = curves.radii}, skin);
     const int width = view.camera.width, height = view.camera.height;
     FurFrames frames;
@@ -71,7 +72,10 @@ FurFrames trace_fur(const StrandCurves& curves, const Mesh& skin, const Coat& co
         const Vec3d n = n0 * (1 - hit.weights.x - hit.weights.y) + n1 * hit.weights.x + n2 * hit.weights.y;
         const double l = length(n);
         const Vec3d normal = l > 0 ? n / l : Vec3d(0, 1, 0);
-        return root_colour * (0.22 * (0.3 + 0.2 * normal.y + 1.6 * std::max(dot(normal, key), 0.0)));
+        const Vec3d w(1 - hit.weights.x - hit.weights.y, hit.weights.x, hit.weights.y);
+        const double share = lengths.empty() ? 1.0 : static_cast<double>(lengths[v[0]]) * w.x + static_cast<double>(lengths[v[1]]) * w.y + static_cast<double>(lengths[v[2]]) * w.z;
+        const double covered = std::clamp(share * 4, 0.0, 1.0);
+        return mixed({0.55, 0.42, 0.36}, root_colour, covered) * ((1 - 0.78 * covered) * (0.3 + 0.2 * normal.y + 1.6 * std::max(dot(normal, key), 0.0)));
     };
 
     parallel_for(height, 4, threads, [&](int begin, int end) {

@@ -1,5 +1,6 @@
 #include "pipeline/grown_fur.h"
 
+#include "assets/image_file.h"
 #include "core/error.h"
 #include "fur/comb.h"
 #include "mesh/normals.h"
@@ -9,10 +10,17 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 
 namespace relievo {
 
-GrownFur grown_fur(Mesh mesh, const Coat& coat, int threads) {
+std::vector<LengthRule> with_masks(std::vector<LengthRule> rules) {
+    for (LengthRule& r : rules)
+        if (!r.file.empty()) r.mask = std::make_shared<const ImageF>(read_image(r.file, FirstRow::bottom));
+    return rules;
+}
+
+GrownFur grown_fur(Mesh mesh, const Coat& coat, std::span<const LengthRule> rules, int threads) {
     GrownFur fur;
     FurSpace space = moved_into_fur_space(std::move(mesh), threads);
     fur.mesh = std::move(space.mesh);
@@ -28,14 +36,28 @@ GrownFur grown_fur(Mesh mesh, const Coat& coat, int threads) {
         if (fur.mesh.faces() == 0) throw Error("grow fur on", name, "all its faces are collapsed or repeated", "scan or save it again: there is no surface to grow on");
         fur.roots = grow_roots(fur.mesh, wanted);
     }
-    fur.spacing = static_cast<float>(std::sqrt(fur.roots.area / static_cast<double>(std::max<std::size_t>(fur.roots.roots.size(), 1))));
+    if (!rules.empty()) {
+        fur.mesh.normals = continuous_normals(fur.mesh, NormalMode::angle, threads);
+        fur.lengths = length_shares(fur.mesh, fur.sphere, rules, threads);
+        if (fur.mesh.uvs.empty() && std::ranges::find(rules, LengthQuantity::mask, &LengthRule::quantity) != rules.end())
+            fur.mesh.notes.emplace_back("The mesh has no texture coordinates: the mask was thrown on along z, over its box of x and y.");
+        const std::size_t all = fur.roots.roots.size();
+        std::erase_if(fur.roots.roots, [&](const Root& root) {
+            const Vec3f w = corner_weights(fur.mesh, root);
+            const std::uint32_t* v = &fur.mesh.indices[std::size_t{root.face} * 3];
+            return fur.lengths[v[0]] * w.x + fur.lengths[v[1]] * w.y + fur.lengths[v[2]] * w.z < shortest_share;
+        });
+        fur.bare = all - fur.roots.roots.size();
+        if (fur.roots.roots.empty()) throw Error("grow fur on", fur.mesh.name, "the rules leave all of it bare", "turn one round (FROM..TO) or leave it out");
+    }
+    fur.spacing = static_cast<float>(std::sqrt(fur.roots.area / static_cast<double>(std::max<std::size_t>(fur.roots.roots.size() + fur.bare, 1))));
     fur.roots_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return fur;
 }
 
 StrandCurves curves_of(GrownFur& fur, const Coat& coat, int pieces, int threads) {
     if (fur.mesh.normals.empty()) fur.mesh.normals = continuous_normals(fur.mesh, NormalMode::angle, threads);
-    return strand_curves(fur.mesh, combed(fur.mesh, mean_lean(coat), threads), fur.roots, coat, fur.spacing, pieces, threads);
+    return strand_curves(fur.mesh, combed(fur.mesh, mean_lean(coat), threads), fur.roots, coat, fur.spacing, pieces, threads, {.lengths = fur.lengths});
 }
 
 }  // namespace relievo

@@ -3,6 +3,7 @@
 
 #include "core/mesh.h"
 #include "fur/coat.h"
+#include "fur/length_rules.h"
 #include "fur/roots.h"
 #include "fur/strand_curves.h"
 #include "mesh/bounds.h"
@@ -10,15 +11,20 @@
 namespace relievo {
 
 struct GrownFur {
-    Mesh mesh;            // in fur space; without normals of its own
+    Mesh mesh;            // in fur space; without normals of its own where no rule asked for them
     Sphere sphere;        // of the mesh in its file, which became the unit sphere
-    Roots roots;
+    Roots roots;          // of strands: where the skin is bare there are none
+    std::vector<float> lengths;  // of the vertices, shares of the coat's length; empty: 1 everywhere
+    std::size_t bare = 0; // roots that were left out for that
     float spacing = 0;    // mean distance between roots
     double roots_ms = 0;  // that they took
 };
 
-// Throws Error for meshes on which nothing can grow.
-GrownFur grown_fur(Mesh mesh, const Coat& coat, int threads = 0);
+// Throws Error for meshes on which nothing can grow, and for rules that leave all of it bare.
+GrownFur grown_fur(Mesh mesh, const Coat& coat, std::span<const LengthRule> rules, int threads = 0);
+
+// Reads the masks that rules name. Throws Error.
+std::vector<LengthRule> with_masks(std::vector<LengthRule> rules);
 
 // The strands of the fur as curves of so many straight pieces. Gives the mesh its normals.
 StrandCurves curves_of(GrownFur& fur, const Coat& coat, int pieces, int threads = 0);

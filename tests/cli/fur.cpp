@@ -174,6 +174,31 @@ TEST(Fur, ExportsItsStrandsWhereTheMeshIs) {
     EXPECT_EQ(std::filesystem::file_size(std::filesystem::path(folder / "strands.hair")), 128 + strands * 2 + points.size() * 28);
 }
 
+TEST(Fur, GrowsWhereRulesSay) {
+    if (!has_device()) GTEST_SKIP() << "no Vulkan device";
+    const Folder folder;
+    const std::string mesh = tetrahedron_in(folder), mask = folder / "mask.png";
+    Image8 halves(2, 1, 1);
+    halves(1, 0) = 255;
+    write_png(mask, halves, FirstRow::top);
+    const Ended all = run(quick(mesh, {"--json"})), half = run(quick(mesh, {"--json", "--grow-where", "mask=0.49..0.51@" + mask}));
+    ASSERT_EQ(half.code, 0) << half.err;
+    const Json a = Json::parse(all.out, nullptr, false), b = Json::parse(half.out, nullptr, false);
+    EXPECT_EQ(a["report"]["bare"], 0.0);
+    // The corners of the tetrahedron are all it is asked about, two on either side; the share falls off linearly over its faces.
+    EXPECT_GT(b["report"]["bare"].get<double>(), 0.0001);
+    EXPECT_LT(b["strands"].get<int>(), a["strands"].get<int>());
+    EXPECT_EQ(b["density_p95_over_p5"], a["density_p95_over_p5"]);
+    EXPECT_NE(b["report"]["notes"].dump().find("thrown on"), std::string::npos);
+    const Ended bald = run(quick(mesh, {"--json", "--grow-where", "height=2..3"}));
+    EXPECT_EQ(bald.code, 1);
+    EXPECT_NE(bald.err.find("small"), std::string::npos) << bald.err;
+    EXPECT_NE(bald.err.find("bare"), std::string::npos) << bald.err;
+    const Ended missing = run(quick(mesh, {"--json", "--grow-where", "mask@" + (folder / "none.png")}));
+    EXPECT_EQ(missing.code, 1);
+    EXPECT_NE(missing.err.find("none.png"), std::string::npos) << missing.err;
+}
+
 TEST(Fur, RefusesWrongWordsWithAWayOn) {
     const Folder folder;
     const std::string mesh = tetrahedron_in(folder);
@@ -198,6 +223,8 @@ TEST(Fur, RefusesWrongWordsWithAWayOn) {
                  {{"--mode", "classic", "--fur-map", "map.jpg"}, "FILE.dds"},
                  {{"--mode", "classic", "--fur-map", "map.dds", "--dds-code", "bc9"}, "bc1"},
                  {{"--json", "--mode", "classic", "--set", "power=0"}, "1 to 1000"},
+                 {{"--json", "--grow-where", "hight=0..1"}, "height"},
+                 {{"--json", "--mode", "classic", "--grow-where", "up"}, "strands"},
                  {{"--json", "--height", "80"}, "50"}};
     for (const auto& c : cases) {
         std::vector<std::string> all{"fur", mesh};
