@@ -73,7 +73,7 @@ void add_replicate_command(CLI::App& app, const CommandLine& command_line) {
     };
     auto o = std::make_shared<Options>();
     const std::string command = command_line.text;
-    auto* verb = app.add_subcommand("replicate", "Runs the eight tests of a published comparison again and measures what was judged by eye");
+    auto* verb = app.add_subcommand("replicate", "Runs the eight tests of a published comparison again and measures what was judged by eye; with fur: those of a thesis on fur");
     verb->add_option("--test", o->tests, "test_1 to test_8, comma-separated or repeated (default: all; relievo list tests)")->delimiter(',');
     auto* techniques_option = verb->add_option("--technique", o->techniques, "further techniques beside the published ones, at their defaults (default: all)");
     verb->add_flag("--only-published", o->only_published, "no further techniques")->excludes(techniques_option);
@@ -87,7 +87,9 @@ void add_replicate_command(CLI::App& app, const CommandLine& command_line) {
     verb->add_option("--page", o->settings.page, "FILE.md: also write the page that sets both rankings beside each other and says why they differ");
     verb->footer("Examples:\n  relievo replicate\n  relievo replicate --test test_7,test_8 --only-published --json\n"
                  "  relievo replicate --page docs/replication.md");
-    verb->callback([o, command] {
+    add_replicate_fur_command(*verb, command_line);
+    verb->callback([o, command, verb] {
+        if (!verb->get_subcommands().empty()) return;  // another comparison
         ReplicateSettings& s = o->settings;
         s.tests = parse_tests(o->tests);
         s.techniques = parse_techniques(o->techniques);

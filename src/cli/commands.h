@@ -20,6 +20,7 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line);
 void add_explain_command(CLI::App& app);
 void add_effects_command(CLI::App& app);
 void add_replicate_command(CLI::App& app, const CommandLine& command_line);
+void add_replicate_fur_command(CLI::App& replicate, const CommandLine& command_line);  // a subcommand of replicate
 void add_bake_command(CLI::App& app);
 void add_mesh_command(CLI::App& app);
 void add_fur_command(CLI::App& app);

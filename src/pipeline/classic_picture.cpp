@@ -3,14 +3,13 @@
 #include "assets/image_file.h"
 #include "assets/mesh_file.h"
 #include "core/error.h"
-#include "fur/comb.h"
 #include "fur/map_strands.h"
-#include "fur/strand_curves.h"
 #include "mesh/index_order.h"
 #include "mesh/indexing.h"
 #include "mesh/normals.h"
 #include "pipeline/fur_reference.h"
 #include "pipeline/fur_space.h"
+#include "pipeline/grown_fur.h"
 
 #include <algorithm>
 #include <array>
@@ -66,14 +65,18 @@ std::array<double, 3> solved(std::array<std::array<double, 3>, 3> m, std::array<
 // A strand of the map grows wherever its direction is met, on scans ten times and more. The discs of the measure are as large as if all
 // grew once, which is what the map's size and density ask for; smaller ones would find still more unevenness.
 double discs_of(const MapStrands& grown, const DirectionMap& fur) {
-    std::size_t strands = 0;
-    for (const std::vector<Image8>& face : fur.faces)
-        for (std::size_t t = 3; t < face.front().texels.size(); t += 4) strands += face.front().texels[t] > 0;
-    const double times = static_cast<double>(grown.roots.roots.size()) / static_cast<double>(std::max<std::size_t>(strands, 1));
+    const double times = static_cast<double>(grown.roots.roots.size()) / static_cast<double>(std::max<std::size_t>(strands_on(fur), 1));
     return EvennessSettings{}.strands_per_disc * std::max(times, 1.0);
 }
 
 }  // namespace
+
+std::size_t strands_on(const DirectionMap& fur) {
+    std::size_t strands = 0;
+    for (const std::vector<Image8>& face : fur.faces)
+        for (std::size_t t = 3; t < face.front().texels.size(); t += 4) strands += face.front().texels[t] > 0;
+    return strands;
+}
 
 DirectionMap classic_fur_map(const ClassicSettings& s, std::vector<std::string>& notes) {
     std::vector<Image8> faces;
@@ -124,7 +127,7 @@ LayersModel classic_model(const ClassicSettings& s, const Mesh& mesh, const Dire
     return {.mesh = &mesh, .fur = &fur, .colour = &colour, .addressing = s.addressing, .filtered = s.filtered, .height = s.height, .light = s.light, .skin = s.skin};
 }
 
-Coat upright_coat(const ClassicSettings& s, std::size_t strands, double density) {
+Coat upright_coat(const ClassicSettings& s, std::size_t strands) {
     Coat coat;
     coat.strands = static_cast<float>(strands);
     coat.length = s.height;
@@ -133,7 +136,7 @@ Coat upright_coat(const ClassicSettings& s, std::size_t strands, double density)
     coat.taper = 1;
     // Strands of the thesis are as thick at the tip as at the root. The bluntest there are here have radius 1 - t^4, whose square is
     // 1 - 2/5 + 1/9 in the mean: so much wider they are, and fill the same volume.
-    coat.width = static_cast<float>(std::sqrt(density / (3.141592653589793 * (1 - 2.0 / 5 + 1.0 / 9))));
+    coat.width = static_cast<float>(std::sqrt(s.map.density / (3.141592653589793 * (1 - 2.0 / 5 + 1.0 / 9))));
     coat.root_colour = coat.tip_colour = s.colour;
     coat.gloss = s.gloss;
     return coat;
@@ -228,11 +231,9 @@ FurPicture classic_picture(const std::filesystem::path& file, const ClassicSetti
     result.strands = grown.roots.roots.size();
     if (s.reference_samples > 0) {
         const Timer tracing;
-        const Coat coat = upright_coat(s, std::max<std::size_t>(result.strands, 1), s.map.density);
-        const Roots roots = grow_roots(mesh, {.count = static_cast<std::uint32_t>(coat.strands), .threads = s.threads});
-        const double spacing = std::sqrt(roots.area / static_cast<double>(roots.roots.size()));
-        const StrandCurves curves = strand_curves(mesh, std::vector<Vec3f>(mesh.positions.size()), roots, coat, spacing, 4, s.threads);
-        const FurFrames reference = trace_fur(curves, mesh, coat, view, s.reference_samples, s.threads, progress);
+        const Coat coat = upright_coat(s, std::max<std::size_t>(strands_on(fur), 1));
+        GrownFur even = grown_fur(mesh, coat, {}, s.threads);
+        const FurFrames reference = trace_fur(curves_of(even, coat, 4, s.threads), even.mesh, coat, view, s.reference_samples, s.threads, progress);
         if (s.fit_light) {
             result.light = fitted_light(*renderer, averaged, reference, s.light);
             frames = renderer->draw(averaged);
@@ -249,6 +250,7 @@ FurPicture classic_picture(const std::filesystem::path& file, const ClassicSetti
         report(progress, "measuring", 0.9);
         result.evenness = evenness(mesh, grown.roots, grown.strands, {.strands_per_disc = discs_of(grown, fur), .extent = 1, .threads = s.threads});
     }
+    result.frames = std::move(frames);
     report(progress, "drawing", 1);
     return result;
 }

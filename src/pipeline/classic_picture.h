@@ -35,10 +35,11 @@ struct ClassicSettings {
 
 // The map of strands alone, each face with a seed of its own. Throws Error where the colour map cannot be read.
 DirectionMap classic_fur_map(const ClassicSettings& settings, std::vector<std::string>& notes);
+std::size_t strands_on(const DirectionMap& fur);
 DirectionMap classic_colour_map(const ClassicSettings& settings);
 
-// Upright strands of even thickness: as many as `strands`, over an area of `area`, covering the share `density` of it.
-Coat upright_coat(const ClassicSettings& settings, std::size_t strands, double density);
+// What the maps stand for: upright strands of even thickness, that cover the map's density of the skin. `strands`: as many as the map has.
+Coat upright_coat(const ClassicSettings& settings, std::size_t strands);
 
 // The light of the layers that brings their picture nearest to the reference, by least squares over the pixels that either covers. The
 // picture is a sum of what the ambient, the diffuse and the specular light show and of the skin, so three numbers are a linear fit.

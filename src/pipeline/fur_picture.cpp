@@ -138,6 +138,7 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
         for (const Root& root : measured.roots) chances.push_back(strand_chance(root.position));
         result.evenness = evenness(grown, measured, likeness(measured, chances, settings.threads), {.extent = 1, .threads = settings.threads});
     }
+    result.frames = std::move(frames);
     report(progress, "drawing", 1);
     return result;
 }

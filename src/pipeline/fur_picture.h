@@ -45,6 +45,7 @@ struct FurPicture {
     std::optional<LayersLight> light;  // of mode classic
     FurTimes ms;  // first_frame: from the loaded mesh to the first whole picture in memory, all steps in between included
     std::string device;
+    FurFrames frames;  // of the picture
     Image8 picture;  // sRGB, rows top to bottom
     Image8 beside;   // the same and the reference to its right, where there is one
     std::vector<std::string> notes;
