@@ -17,3 +17,20 @@ StrandShape strand_shape(vec3 normal, vec3 comb, float level, float tilt, float 
     shape.tangent = normal * cos(angle) + along * sin(angle);
     return shape;
 }
+
+// The same where forces bend strands further: `push`, in the skin, is by how much more the tip leans, and adds to the angle in proportion to the height.
+// The lean then turns along the strand, and its integral has no closed form: three points after Gauss, within 0.001 of the length.
+vec3 leaning(vec3 normal, vec3 lean) {
+    float angle = length(lean);
+    return normal * cos(angle) + lean * (angle > 1e-4f ? sin(angle) / angle : 1.0f);
+}
+
+StrandShape pushed_shape(vec3 normal, vec3 comb, vec3 push, float level, float tilt, float bend) {
+    vec3 grown = comb / max(length(comb), 1.0f);
+    vec3 start = grown * tilt, turn = (grown * bend + push) * level;
+    StrandShape shape;
+    shape.offset = (leaning(normal, start + turn * 0.1127017f) * 0.2777778f + leaning(normal, start + turn * 0.5f) * 0.4444444f +
+                    leaning(normal, start + turn * 0.8872983f) * 0.2777778f) * level;
+    shape.tangent = leaning(normal, start + turn);
+    return shape;
+}

@@ -144,6 +144,7 @@ void add_fur_command(CLI::App& app) {
                  "  relievo fur bunny.obj --size 640 400 --reference beside.png --samples 32 --json\n"
                  "  relievo fur bunny.obj --mode classic --layers 8 --height 2 --density 10 --out 2009.png\n"
                  "  relievo fur spot.obj --grow-where mask@bald.png --grow-where up=-0.6..0.2 --out spot.png\n"
+                 "  relievo fur bunny.obj --preset fox --wind 2 0 0.5 --animate 50 --out windy.png\n"
                  "  relievo fur bunny.obj --preset fox --density 20 --export fox.hair --export fox.ply\n"
                  "  relievo fur cow.obj --layers 32 --size 640 400 --passes 1 --out quick.png\n\n" +
                  knob_list() + length_rule_list() + classic_knob_list());
@@ -171,7 +172,9 @@ void add_fur_command(CLI::App& app) {
         s.measure = o->json;
         if (!o->reference.empty()) s.reference_samples = o->samples;
         s.lengths = length_rules_of(o->growth);
-        if (classic && !s.lengths.empty()) throw UsageError("--grow-where is for strands, not for --mode classic");
+        take_motion(o->growth, o->out, s);
+        if (classic && (!s.lengths.empty() || length(s.forces.gravity) > 0 || length(s.forces.wind) > 0 || s.film.frames > 0))
+            throw UsageError("--grow-where, --gravity, --wind and --animate are for strands, not for --mode classic");
         if (!o->growth.exported.empty()) {
             if (classic) throw UsageError("--export writes strands, which --mode classic has none of");
             export_as_asked(o->in, o->growth, s, o->quiet);

@@ -1,15 +1,22 @@
 #include "cli/growth_options.h"
 
 #include "cli/progress_display.h"
+#include "core/error.h"
 #include "pipeline/fur_export.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 
 namespace relievo {
 
 void add_growth_options(CLI::App& verb, GrowthOptions& options) {
     verb.add_option("--grow-where", options.where, "NAME=FROM..TO@ARGUMENT, a rule of length: bare where NAME is FROM, full length where it is TO; several multiply")->take_all();
+    verb.add_option("--gravity", options.gravity, "how strongly fur hangs down, in units of earth's gravity, beyond what its comb has of it")->check(CLI::Range(-20.0, 20.0))->capture_default_str();
+    verb.add_option("--wind", options.wind, "X Y Z, pull of the wind on the strands, in the same unit")->expected(3);
+    verb.add_option("--gusts", options.gusts, "by which share of itself the wind swells and falls in an animation")->check(CLI::Range(0.0, 1.0))->capture_default_str();
+    verb.add_option("--animate", options.frames, "so many frames of 1/25 s, as FILE_0000.png and on beside --out FILE.png: the wind sets in, the fur swings")->check(CLI::Range(1, 9999));
+    verb.add_option("--spin", options.spin, "turns a second of the mesh around its vertical axis in an animation")->check(CLI::Range(-20.0, 20.0));
     verb.add_option("--export", options.exported, "FILE.hair, FILE.obj or FILE.ply: the strands as curves, in the mesh's own space and units; may be repeated")->take_all();
     verb.add_option("--pieces", options.pieces, "straight pieces of each exported strand")->check(CLI::Range(1, 1024))->capture_default_str();
 }
@@ -18,6 +25,25 @@ std::vector<LengthRule> length_rules_of(const GrowthOptions& options) {
     std::vector<LengthRule> rules;
     for (const std::string& text : options.where) rules.push_back(length_rule(text));
     return rules;
+}
+
+void take_motion(const GrowthOptions& options, const std::string& out, FurSettings& settings) {
+    settings.forces.gravity = {0, -options.gravity, 0};
+    if (!options.wind.empty()) settings.forces.wind = {options.wind[0], options.wind[1], options.wind[2]};
+    if (!(length(settings.forces.wind) <= 100)) throw UsageError("--wind takes a pull of at most 100 times gravity");
+    if (options.frames == 0) {
+        if (options.spin != 0) throw UsageError("--spin turns an animation: it needs --animate FRAMES");
+        return;
+    }
+    if (out.empty()) throw UsageError("--animate needs --out FILE.png, beside which its frames go");
+    settings.forces.gusts = options.gusts;
+    settings.film.frames = options.frames;
+    settings.film.turns_per_second = options.spin;
+    settings.film.shown = [path = std::filesystem::path(out)](int frame, const Image8& picture) {
+        char number[16];
+        std::snprintf(number, sizeof number, "_%04d", frame);
+        write_fur_picture(path.parent_path() / (path.stem().string() + number + path.extension().string()), picture);
+    };
 }
 
 std::string length_rule_list() {
@@ -31,7 +57,7 @@ std::string length_rule_list() {
 }
 
 void export_as_asked(const std::string& mesh, const GrowthOptions& options, const FurSettings& fur, bool quiet) {
-    const FurExport e = export_fur(mesh, options.exported, {.coat = fur.coat, .lengths = fur.lengths, .pieces = options.pieces, .threads = fur.threads}, progress_display(quiet));
+    const FurExport e = export_fur(mesh, options.exported, {.coat = fur.coat, .lengths = fur.lengths, .forces = fur.forces, .pieces = options.pieces, .threads = fur.threads}, progress_display(quiet));
     if (quiet) return;
     for (const std::string& file : options.exported) std::fprintf(stderr, "%s: %zu strands of %zu points\n", file.c_str(), e.strands, e.points);
 }

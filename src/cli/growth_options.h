@@ -16,12 +16,18 @@ struct GrowthOptions {
     std::vector<std::string> where;     // rules of length
     std::vector<std::string> exported;  // files
     int pieces = 8;
+    double gravity = 0, gusts = 0.6, spin = 0;
+    std::vector<double> wind;
+    int frames = 0;
 };
 
 void add_growth_options(CLI::App& verb, GrowthOptions& options);
 
 // The rules that --grow-where asks for. Throws UsageError.
 std::vector<LengthRule> length_rules_of(const GrowthOptions& options);
+
+// The forces that --gravity and --wind ask for, and the frames of --animate, written beside `out` with their number before its ending. Throws UsageError.
+void take_motion(const GrowthOptions& options, const std::string& out, FurSettings& settings);
 
 // What --grow-where knows, a line each.
 std::string length_rule_list();

@@ -29,6 +29,9 @@ struct Coat {
     float countershade = 0.3f;       // how much lighter what looks down is
     float gloss = 0.4f;              // strength of the highlights
     float guard_hairs = 0.1f;        // share of strands that are 1.6 times as thick and of full length
+    float softness = 0.35f;          // angle at which a pull as strong as gravity, across it, holds the longest strand's tip, radians
+    float beat = 3;                  // at which it swings when let go, a second
+    float damping = 0.25f;           // 1: it comes back without swinging
 };
 
 // The angle from the normal at which fully combed strands stand in the mean, radians.

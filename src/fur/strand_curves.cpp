@@ -10,8 +10,25 @@
 
 namespace relievo {
 
+namespace {
+
+// The integral from 0 to `level` of the direction of a strand whose lean from the normal, a vector in the skin, is start + turn t: by Simpson's rule.
+Vec3d pushed_axis(Vec3d normal, Vec3d start, Vec3d turn, double level) {
+    constexpr int steps = 32;
+    Vec3d sum;
+    for (int i = 0; i <= steps; ++i) {
+        const Vec3d lean = start + turn * (level * i / steps);
+        const double angle = length(lean);
+        sum += (normal * std::cos(angle) + lean * (angle > 1e-8 ? std::sin(angle) / angle : 1.0)) * (i == 0 || i == steps ? 1.0 : i % 2 ? 4.0 : 2.0);
+    }
+    return sum * (level / (3 * steps));
+}
+
+}  // namespace
+
 StrandCurves strand_curves(const Mesh& mesh, const std::vector<Vec3f>& comb, const Roots& roots, const Coat& coat, double spacing, int pieces, int threads, const SkinValues& skin) {
     assert(mesh.normals.size() == mesh.positions.size() && comb.size() == mesh.positions.size() && pieces >= 1);
+    assert(skin.pushes.empty() || skin.pushes.size() == mesh.positions.size());
     assert(skin.lengths.empty() || skin.lengths.size() == mesh.positions.size());
     const LockNoise noise = lock_noise();
     const double frequency = 1 / (static_cast<double>(coat.lock_size) * LockNoise::hills);
@@ -44,6 +61,11 @@ StrandCurves strand_curves(const Mesh& mesh, const std::vector<Vec3f>& comb, con
             const Vec3d lean = (side * (fraction(7 * a) - 0.5) + other * (fraction(11 * b) - 0.5)) * (2.0 * static_cast<double>(coat.spread));
 
             const double share = skin.lengths.empty() ? 1.0 : static_cast<double>(skin.lengths[v[0]] * w.x + skin.lengths[v[1]] * w.y + skin.lengths[v[2]] * w.z);
+            Vec3d push;
+            if (!skin.pushes.empty()) {
+                const Vec3d p(skin.pushes[v[0]] * w.x + skin.pushes[v[1]] * w.y + skin.pushes[v[2]] * w.z);
+                push = p - n * dot(p, n);
+            }
             const double full = coat.length * share, start = coat.tilt * combed, turn = std::max(coat.bend * combed, 1e-3);
             for (int k = 0; k <= pieces; ++k) {
                 const double way = static_cast<double>(k) / pieces, level = way * static_cast<double>(s.tip);
@@ -55,7 +77,9 @@ StrandCurves strand_curves(const Mesh& mesh, const std::vector<Vec3f>& comb, con
                     place = position + sway * (static_cast<double>(coat.lock) * std::pow(level, 1.5) * full);
                 }
                 const double angle = start + turn * level;
-                Vec3d p = place + (n * (std::sin(angle) - std::sin(start)) + along * (std::cos(start) - std::cos(angle))) * (full / turn) + lean * (level * full);
+                const Vec3d axis = skin.pushes.empty() ? (n * (std::sin(angle) - std::sin(start)) + along * (std::cos(start) - std::cos(angle))) / turn
+                                                       : pushed_axis(n, along * start, along * (coat.bend * combed) + push, level);
+                Vec3d p = place + axis * full + lean * (level * full);
                 const double round = 2 * std::numbers::pi * (7 * b + static_cast<double>(coat.curl_turns) * level);
                 p += (side * std::cos(round) + other * std::sin(round)) * (coat.curl_radius * spacing * std::min(4 * level, 1.0));
                 const double way4 = way * way * way * way;

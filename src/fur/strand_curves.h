@@ -27,6 +27,7 @@ struct StrandCurves {
 // What sets places of the skin apart beside the comb, a value for each vertex.
 struct SkinValues {
     std::span<const float> lengths{};  // shares of the coat's length, in [0,1]; empty: 1 everywhere
+    std::span<const Vec3f> pushes{};   // by how much more forces make tips lean (fur/fur_motion.h), radians; empty: not at all
 };
 
 // The strands that grow from the roots; docs/concepts/fur.md has the formulas. In double, from the same numbers as the programs that draw

@@ -233,7 +233,7 @@ FurPicture classic_picture(const std::filesystem::path& file, const ClassicSetti
         const Timer tracing;
         const Coat coat = upright_coat(s, std::max<std::size_t>(strands_on(fur), 1));
         GrownFur even = grown_fur(mesh, coat, {}, s.threads);
-        const FurFrames reference = trace_fur(curves_of(even, coat, 4, s.threads), even.mesh, coat, view, s.reference_samples, s.threads, progress);
+        const FurFrames reference = trace_fur(curves_of(even, coat, 4, {}, s.threads), even.mesh, coat, view, s.reference_samples, s.threads, progress);
         if (s.fit_light) {
             result.light = fitted_light(*renderer, averaged, reference, s.light);
             frames = renderer->draw(averaged);

@@ -40,7 +40,7 @@ FurExport export_fur(const std::filesystem::path& mesh, const std::vector<std::s
     report(progress, "loading " + mesh.filename().string(), 0);
     GrownFur fur = grown_fur(load_mesh(mesh, settings.threads), settings.coat, with_masks(settings.lengths), settings.threads);
     report(progress, "growing strands", 0.3);
-    const StrandCurves curves = curves_of(fur, settings.coat, settings.pieces, settings.threads);
+    const StrandCurves curves = curves_of(fur, settings.coat, settings.pieces, settings.forces, settings.threads);
     const StrandLines lines = lines_of(curves, settings.coat, fur.sphere, settings.threads);
     for (const std::string& file : files) {
         report(progress, "writing " + file, 0.6);

@@ -3,6 +3,7 @@
 
 #include "core/progress.h"
 #include "fur/coat.h"
+#include "fur/fur_motion.h"
 #include "fur/length_rules.h"
 
 #include <cstddef>
@@ -15,6 +16,7 @@ namespace relievo {
 struct FurExportSettings {
     Coat coat;
     std::vector<LengthRule> lengths;  // where fur is shorter
+    FurForces forces;  // that hold the fur
     int pieces = 8;   // straight ones of each strand, at least 1
     int threads = 0;
 };

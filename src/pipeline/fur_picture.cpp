@@ -95,12 +95,15 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
     std::vector<float> lengths;
     if (!fur.lengths.empty())
         for (const Vec2f& uv : layers.uvs) lengths.push_back(uv.x);
+    const FurSkin surface{layers, comb, lengths, settings.coat};
+    const bool pulled = length(settings.forces.gravity) > 0 || length(settings.forces.wind) > 0;
+    const std::vector<Vec3f> pushes = pulled ? pushes_of(settled(surface, settings.forces, settings.threads)) : std::vector<Vec3f>{};
     result.ms.prepare = timer.ms() - result.ms.roots;
 
     const Timer step;
     const StrandGrid grid = strand_grid(grown, roots, {.reach = strand_reach(settings.coat, spacing, view.layers), .off = static_cast<float>(simpler.estimated_error / 2), .threads = settings.threads});
     result.ms.grid = step.ms();
-    renderer->load({.mesh = &layers, .comb = &comb, .lengths = lengths.empty() ? nullptr : &lengths, .grid = &grid, .coat = settings.coat, .spacing = spacing});
+    renderer->load({.mesh = &layers, .comb = &comb, .lengths = lengths.empty() ? nullptr : &lengths, .pushes = pulled ? &pushes : nullptr, .grid = &grid, .coat = settings.coat, .spacing = spacing});
     report(progress, "drawing", 0.5);
     FurFrames frames = renderer->draw(view);
     result.picture = shown_fur(frames);
@@ -120,12 +123,16 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
     if (settings.reference_samples > 0) {
         // On the mesh itself: what its simplification changes counts as an error of the layers.
         const Timer tracing;
-        const StrandCurves curves = curves_of(fur, settings.coat, 8, settings.threads);
+        const StrandCurves curves = curves_of(fur, settings.coat, 8, settings.forces, settings.threads);
         const FurFrames reference = trace_fur(curves, grown, settings.coat, view, settings.reference_samples, settings.threads, progress, fur.lengths);
         result.score = fur_score(frames, reference, settings.threads);
         result.score->reference_ms = tracing.ms();
         result.score->samples = settings.reference_samples;
         result.beside = side_by_side(result.picture, shown_fur(reference));
+    }
+    if (settings.film.frames > 0) {
+        report(progress, "filming", 0.7);
+        film_fur(*renderer, surface, view, settings.forces, settings.film, settings.threads);
     }
     std::ranges::sort(frames.frame_ms);
     result.ms.frame_median = frames.frame_ms[frames.frame_ms.size() / 2];

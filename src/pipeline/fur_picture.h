@@ -5,7 +5,9 @@
 #include "core/progress.h"
 #include "fur/coat.h"
 #include "fur/evenness.h"
+#include "fur/fur_motion.h"
 #include "fur/length_rules.h"
+#include "pipeline/fur_film.h"
 #include "fur/fur_modes.h"
 #include "pipeline/fur_score.h"
 #include "render/layers_renderer.h"
@@ -21,6 +23,8 @@ struct FurSettings {
     std::string preset;     // empty: the first
     Coat coat;              // as the preset says, changed by options
     std::vector<LengthRule> lengths;  // where fur is shorter; masks are read here
+    FurForces forces;       // that hold the fur in the picture, in the space of the mesh
+    FurFilm film;           // drawn after the picture, with as many passes, under the same forces
     int layers = 0;         // 0: as many as the length of the fur in the picture asks for
     int width = 1280, height = 800;
     int passes = 16;        // averaged into the picture

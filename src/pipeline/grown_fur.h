@@ -3,6 +3,7 @@
 
 #include "core/mesh.h"
 #include "fur/coat.h"
+#include "fur/fur_motion.h"
 #include "fur/length_rules.h"
 #include "fur/roots.h"
 #include "fur/strand_curves.h"
@@ -26,7 +27,7 @@ GrownFur grown_fur(Mesh mesh, const Coat& coat, std::span<const LengthRule> rule
 // Reads the masks that rules name. Throws Error.
 std::vector<LengthRule> with_masks(std::vector<LengthRule> rules);
 
-// The strands of the fur as curves of so many straight pieces. Gives the mesh its normals.
-StrandCurves curves_of(GrownFur& fur, const Coat& coat, int pieces, int threads = 0);
+// The strands of the fur as curves of so many straight pieces, as the forces hold them. Gives the mesh its normals.
+StrandCurves curves_of(GrownFur& fur, const Coat& coat, int pieces, const FurForces& forces = {}, int threads = 0);
 
 }  // namespace relievo

@@ -34,6 +34,7 @@ constexpr double light_range = 4;  // depth of the light's picture, in fur space
 struct Vertex {
     Vec3f position, normal, comb;
     float length;
+    Vec3f push;
 };
 
 struct Push {
@@ -90,6 +91,7 @@ struct FurRenderer::State {
     vk::raii::BufferView bricks_view = nullptr, starts_view = nullptr, lists_view = nullptr;
     vk::raii::DescriptorSets sets = nullptr;
     std::uint32_t index_count = 0;
+    std::size_t vertex_count = 0;
     CoatUniforms coat{};
 
     State(const std::string& choice, bool validation) : device(gpu::DeviceSettings{.choice = choice, .validation = validation}) {
@@ -103,7 +105,8 @@ struct FurRenderer::State {
         layout = {device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1, .pSetLayouts = &*set_layout, .pushConstantRangeCount = 1, .pPushConstantRanges = &range}};
         const vk::VertexInputAttributeDescription attributes[] = {{.location = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(Vertex, position)},
                                                                   {.location = 1, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(Vertex, normal)},
-                                                                  {.location = 2, .format = vk::Format::eR32G32B32A32Sfloat, .offset = offsetof(Vertex, comb)}};
+                                                                  {.location = 2, .format = vk::Format::eR32G32B32A32Sfloat, .offset = offsetof(Vertex, comb)},
+                                                                  {.location = 3, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(Vertex, push)}};
         gpu::DrawPipeline settings{.vertex = program_words("shells/skin.vert"),
                                    .fragment = program_words("shells/skin.frag"),
                                    .targets = std::span(&colour_format, 1),
@@ -146,9 +149,10 @@ struct FurRenderer::State {
         auto* to = vertices.as<Vertex>();
         parallel_for(static_cast<int>(mesh.positions.size()), 65536, 0, [&](int begin, int end) {
             for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v)
-                to[v] = {mesh.positions[v], mesh.normals[v], (*model.comb)[v], model.lengths ? (*model.lengths)[v] : 1.0f};
+                to[v] = {mesh.positions[v], mesh.normals[v], (*model.comb)[v], model.lengths ? (*model.lengths)[v] : 1.0f, model.pushes ? (*model.pushes)[v] : Vec3f()};
         });
         index_count = static_cast<std::uint32_t>(mesh.indices.size());
+        vertex_count = mesh.positions.size();
         indices = gpu::make_buffer(device, mesh.indices.size() * 4, vk::BufferUsageFlagBits::eIndexBuffer);
         std::ranges::copy(mesh.indices, indices.as<std::uint32_t>());
         bricks_view = nullptr;
@@ -250,6 +254,12 @@ std::vector<std::string> FurRenderer::validation_messages() const { return state
 
 void FurRenderer::load(const FurModel& model) {
     gpu::vulkan_errors_as("load", model.mesh->name, [&] { state_->load(model); });
+}
+
+void FurRenderer::push(std::span<const Vec3f> pushes) {
+    assert(pushes.size() == state_->vertex_count);
+    auto* to = state_->vertices.as<Vertex>();
+    for (std::size_t v = 0; v < pushes.size(); ++v) to[v].push = pushes[v];
 }
 
 FurFrames FurRenderer::draw(const FurView& view) {

@@ -7,6 +7,7 @@
 #include "render/fur_frames.h"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct FurModel {
     const Mesh* mesh = nullptr;          // with unit normals; what is pushed out
     const std::vector<Vec3f>* comb = nullptr;     // of its vertices
     const std::vector<float>* lengths = nullptr;  // of its vertices, shares of the coat's length; null: 1 everywhere
+    const std::vector<Vec3f>* pushes = nullptr;   // of its vertices, as in fur/fur_motion.h; null: none
     const StrandGrid* grid = nullptr;
     Coat coat;
     float spacing = 0.01f;               // mean distance between roots
@@ -36,6 +38,9 @@ public:
 
     // Copies what a model needs to the device; the model before is forgotten. The model's own data may go afterwards.
     void load(const FurModel& model);
+
+    // Bends the model loaded last otherwise: a push for each of its vertices.
+    void push(std::span<const Vec3f> pushes);
 
     // The model loaded last. Throws Error, for pictures the device cannot draw too.
     FurFrames draw(const FurView& view);

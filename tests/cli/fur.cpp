@@ -199,6 +199,22 @@ TEST(Fur, GrowsWhereRulesSay) {
     EXPECT_NE(missing.err.find("none.png"), std::string::npos) << missing.err;
 }
 
+TEST(Fur, WindMovesIt) {
+    if (!has_device()) GTEST_SKIP() << "no Vulkan device";
+    const Folder folder;
+    const std::string mesh = tetrahedron_in(folder), still = folder / "still.png", film = folder / "film.png";
+    ASSERT_EQ(run(quick(mesh, {"--out", still})).code, 0);
+    const std::vector<std::string> windy = {"--set", "softness=1", "--wind", "2", "0", "0", "--animate", "3", "--spin", "1", "--out", film};
+    ASSERT_EQ(run(quick(mesh, windy)).code, 0);
+    const std::string first = read_text(folder / "film_0000.png"), third = read_text(folder / "film_0002.png");
+    EXPECT_EQ(first, read_text(still));  // the wind sets in with the first frame
+    EXPECT_NE(first, third);
+    EXPECT_NE(read_text(film), read_text(still));  // the picture itself is in balance with it
+    ASSERT_EQ(run(quick(mesh, windy)).code, 0);
+    EXPECT_EQ(third, read_text(folder / "film_0002.png"));  // and the same again
+    EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(folder / "film_0003.png")));
+}
+
 TEST(Fur, RefusesWrongWordsWithAWayOn) {
     const Folder folder;
     const std::string mesh = tetrahedron_in(folder);
@@ -225,6 +241,9 @@ TEST(Fur, RefusesWrongWordsWithAWayOn) {
                  {{"--json", "--mode", "classic", "--set", "power=0"}, "1 to 1000"},
                  {{"--json", "--grow-where", "hight=0..1"}, "height"},
                  {{"--json", "--mode", "classic", "--grow-where", "up"}, "strands"},
+                 {{"--json", "--animate", "3"}, "--out"},
+                 {{"--json", "--spin", "1"}, "--animate"},
+                 {{"--json", "--wind", "1", "2"}, "wind"},
                  {{"--json", "--height", "80"}, "50"}};
     for (const auto& c : cases) {
         std::vector<std::string> all{"fur", mesh};

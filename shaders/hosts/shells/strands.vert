@@ -7,6 +7,7 @@
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 comb;  // w: length here, as a share of the coat's
+layout(location = 3) in vec3 push;
 layout(location = 0) out vec3 base;
 layout(location = 1) out vec3 facing;
 layout(location = 2) out vec4 axis;  // tangent of the strands at this height; w: length here
@@ -17,7 +18,7 @@ void main() {
     level = (float(coat.layers - 1 - gl_InstanceIndex) + 0.5f) / float(coat.layers);
     base = position;
     facing = normal;
-    StrandShape shape = strand_shape(normal, comb.xyz, level, coat.tilt, coat.bend);
+    StrandShape shape = pushed_shape(normal, comb.xyz, push, level, coat.tilt, coat.bend);
     axis = vec4(shape.tangent, comb.w);
     at = position + shape.offset * (coat.fur_length * comb.w);
     gl_Position = to_clip * vec4(at, 1.0f);
