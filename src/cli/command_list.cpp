@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 
+#include "report/technique_text.h"
 #include "core/error.h"
 #include "core/suggest.h"
 #include "maps/map_kinds.h"
@@ -44,6 +45,7 @@ Json technique_rows() {
                         {"maps", maps},
                         {"knobs", knobs_json},
                         {"exact", t.exact},
+                        {"promise", promise_text(t)},
                         {"limits", t.limits}});
     }
     return rows;

@@ -36,6 +36,10 @@ struct Frame {
           hit_height(width_, height_, 1), normal(width_, height_, 3), shadow(width_, height_, 1), fetches(width_, height_, 1) {}
 };
 
+// Rays flatter than this cosine to the normal are followed as if they had it, by every technique and by the reference: the
+// question has to be the same, and without a limit a horizontal ray never ends. 0.03 degrees.
+inline constexpr double flattest_cosine = 0.0005;
+
 // The rays of a picture as the machine that draws it sees them, in tangent space, so that every technique and the reference are
 // asked the same question. Same layout as Frame.
 struct RayField {

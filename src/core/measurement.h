@@ -42,6 +42,8 @@ struct Measured {
 struct Measurement {
     Measured<double> missed_first_hit;      // share of hits late by more than half a texel along the ray, or not found at all
     Measured<double> early_hit;             // share of hits early by more than half a texel
+    Measured<double> astray;                // share of hits that are not where the technique promises (core/promise.h)
+    Measured<double> astray_budget;         // the share its row of the catalogue allows here
     Measured<Percentiles> uv_error_texels;  // distance in UV, in texels of the height map
     Measured<Percentiles> height_error;     // |height - true height|, in [0,1]
     Measured<Percentiles> normal_error_deg;
@@ -52,5 +54,12 @@ struct Measurement {
     Measured<FetchCount> fetches;
     Measured<TimeSpread> gpu_ms;
 };
+
+// Whether the technique keeps what its row says; missing where it was not judged.
+inline Measured<bool> inside_budget(const Measurement& m) {
+    if (!m.astray) return Measured<bool>::missing(m.astray.reason);
+    if (!m.astray_budget) return Measured<bool>::missing(m.astray_budget.reason);
+    return *m.astray <= *m.astray_budget;
+}
 
 }  // namespace relievo

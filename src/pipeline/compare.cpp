@@ -7,10 +7,14 @@
 #include "core/parallel_for.h"
 #include "core/version.h"
 #include "maps/map_kinds.h"
+#include "measure/astray.h"
 #include "measure/error_picture.h"
 #include "measure/measure.h"
+#include "measure/steepness.h"
 #include "pipeline/map_set_bake.h"
 #include "pipeline/reference_picture.h"
+#include "reference/solids.h"
+#include "report/budget_table.h"
 #include "report/page.h"
 #include "report/pixels.h"
 #include "techniques/catalogue.h"
@@ -129,10 +133,19 @@ private:
 // time left that the progress shows depends on it.
 constexpr double baking_units = 1;
 constexpr double reference_units = 1;
+constexpr double solids_units = 0.5;
 constexpr double drawing_units = 3;
 constexpr double measuring_units = 1;
 constexpr double writing_units = 0.5;
-constexpr double view_units = reference_units + drawing_units + measuring_units + writing_units;
+constexpr double view_units = reference_units + solids_units + drawing_units + measuring_units + writing_units;
+
+// Why no promise can be judged under these options; empty where one can. They hold of the ray as it is, searched at its own knobs.
+std::string unpromised(const DrawOptions& options) {
+    const DrawOptions usual;
+    for (const auto choice : {&glsl::DrawModes::steps, &glsl::DrawModes::scale, &glsl::DrawModes::border, &glsl::DrawModes::fade})
+        if (options.*choice != usual.*choice) return "the search was changed by " + described(options);
+    return {};
+}
 
 // Pictures under way. They move to their places together at the end, so that an interrupted run leaves an older report whole.
 class PictureFolder {
@@ -237,8 +250,10 @@ public:
         const std::string csv = results_csv(results);
         const std::string page = page_html(results);
         const std::string json = results_json(results);
+        const std::string budgets = budget_table(results);
         pictures.publish();
         write_file_atomically(out / "results.csv", csv);
+        if (!budgets.empty()) write_file_atomically(out / "budgets.md", budgets);
         write_file_atomically(out / "index.html", page);
         write_file_atomically(out / "results.json", json);
         if (const auto messages = gpu_.validation_messages(); !messages.empty())
@@ -297,6 +312,13 @@ private:
                                                .options = settings_.options,
                                                .threads = settings_.threads},
                                               line.step(reference_units));
+        const std::string no_promise = unpromised(settings_.options);
+        const Progress following = line.step(solids_units);
+        RaySolids solids;
+        if (no_promise.empty())
+            solids = reference_solids(rays.front(), baked.maps.height,
+                                      {.height_scale = baked.height_scale, .zero_level = baked.zero_level, .threads = settings_.threads}, following);
+        const double exposure = wall_exposure(rms_slope(baked.maps.height, static_cast<double>(baked.height_scale)), view.elevation_deg);
         const std::string prefix = "pictures/" + place.folder + "/" + folder_name(view.id) + "-";
         const std::string reference_path = prefix + "reference.png";
 
@@ -323,6 +345,17 @@ private:
                     .m = measure(frame, truth, rays.front(),
                                  {.texels_x = baked.maps.height.width(), .texels_y = baked.maps.height.height(), .threads = settings_.threads})};
             row.m.gpu_ms = spread(frame.gpu_ms);
+            if (!no_promise.empty()) {
+                row.m.astray = row.m.astray_budget = Measured<double>::missing(no_promise);
+            } else {
+                row.m.astray = astray_share(frame, rays.front(), solids,
+                                            {.texels = {baked.maps.height.width(), baked.maps.height.height()},
+                                             .height_scale = static_cast<double>(baked.height_scale),
+                                             .zero_level = static_cast<double>(baked.zero_level),
+                                             .promise = [&c](double view_z) { return promise_of(*c.technique, c.params, static_cast<float>(view_z)); },
+                                             .threads = settings_.threads});
+                row.m.astray_budget = astray_budget(*c.technique, exposure);
+            }
             return row;
         };
         const auto judge_sweep = [&](const Contestant& c, const Frame& frame) {

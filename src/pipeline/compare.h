@@ -34,7 +34,7 @@ struct CompareSettings {
     int threads = 0;
 };
 
-// Writes out/index.html, results.json, results.csv and pictures/; each file appears whole or not at all. The numbers and
+// Writes out/index.html, results.json, results.csv, budgets.md (budget_table.h) and pictures/; each file appears whole or not at all. The numbers and
 // pictures, times aside, do not depend on threads or on the run.
 Results compare(const CompareSettings& settings, const Progress& progress);
 

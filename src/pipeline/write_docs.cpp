@@ -20,6 +20,7 @@
 #include "pipeline/vary_modifier.h"
 #include "render/cpu_renderer.h"
 #include "render/gpu_renderer.h"
+#include "report/technique_text.h"
 #include "techniques/catalogue.h"
 
 #include <cmath>
@@ -52,7 +53,7 @@ std::string number(double value, int digits = 2) {
     return text;
 }
 
-std::string percent(double share) {
+std::string share_text(double share) {
     if (share == 0) return "0";
     return number(share * 100) + " %";
 }
@@ -201,11 +202,12 @@ std::string chapter(const Technique& t, const std::vector<std::pair<std::string,
         out << "| `" << k.knob->id << "` = " << number(k.value, 4) << " | " << k.knob->help << " (" << number(k.knob->min, 4) << " to "
             << number(k.knob->max, 4) << (k.knob->unit.empty() ? "" : " ") << k.knob->unit << ") |\n";
     out << "\n## How right it is\n\n"
+        << "It promises: " << promise_text(t) << " ([What is promised](../../concepts/promises.md); the contract and every comparison check it.)\n\n"
         << "Procedural materials of " << measured_texels << "^2 texels seen " << number(measured_elevation_deg) << " degrees above the plane, "
         << measured_width << " x " << measured_height << " rays of the CPU run of the listing above, against the exact first hit:\n\n"
         << "<!-- measured -->\n| scene | missed first hits | early hits | UV error, 99th percentile (texels) | fetches, mean |\n|---|---|---|---|---|\n";
     for (const auto& [scene, e] : measured)
-        out << "| " << scene << " | " << percent(e.missed) << " | " << percent(e.early) << " | " << number(e.p99) << " | " << number(e.fetches, 3) << " |\n";
+        out << "| " << scene << " | " << share_text(e.missed) << " | " << share_text(e.early) << " | " << number(e.p99) << " | " << number(e.fetches, 3) << " |\n";
     out << "<!-- /measured -->\n\n## Where it fails\n\n" << static_cast<char>(std::toupper(t.limits[0])) << t.limits.substr(1) << ".\n\n"
         << ray("-hard-ray", "A ray that is hard for it", rays.hard);
     return out.str();

@@ -2,6 +2,7 @@
 // Woo 1987), and the height field's gap to the line inside a cell. All in double.
 #pragma once
 
+#include "core/frame.h"
 #include "core/height_field.h"
 #include "core/vec.h"
 #include "core/wrap.h"
@@ -12,10 +13,6 @@
 #include <limits>
 
 namespace relievo {
-
-// Rays flatter than this cosine to the normal are followed as if they had it, by every technique and by the reference: the
-// question has to be the same, and without a limit a horizontal ray never ends. 0.03 degrees.
-inline constexpr double flattest_cosine = 0.0005;
 
 // Height field minus line along a cell, as a function of the parameter s since the cell's entry: gap + s (slope + s bend).
 struct CellGap {

@@ -87,6 +87,27 @@ std::vector<Case> cases_of(const Results& results) {
     return cases;
 }
 
+// Whether techniques do what their rows say, over all pictures that could be judged; empty if none could.
+std::string budgets_sentence(const Results& results) {
+    int judged = 0;
+    int outside = 0;
+    const Row* worst = nullptr;
+    const auto times = [](const Row& row) { return *row.m.astray / std::max(*row.m.astray_budget, 1e-12); };
+    for (const Row& row : results.rows) {
+        const Measured<bool> inside = inside_budget(row.m);
+        if (!inside) continue;
+        ++judged;
+        if (*inside) continue;
+        ++outside;
+        if (!worst || times(row) > times(*worst)) worst = &row;
+    }
+    if (judged == 0) return {};
+    if (outside == 0) return "Every technique keeps its promise in every picture.";
+    return std::to_string(outside) + " of " + std::to_string(judged) + " pictures break what their technique promises; worst is " +
+           inside_sentence(named(*worst, false)) + " on " + seen(*worst) + ", with " + percent(*worst->m.astray) + " of its hits astray where " +
+           percent(*worst->m.astray_budget) + " are allowed.";
+}
+
 }  // namespace
 
 std::vector<std::string> answer(const Results& results) {
@@ -133,6 +154,7 @@ std::vector<std::string> answer(const Results& results) {
                             "; the best of the others, " + inside_sentence(technique_title(runner_up->first)) + ", is wrong on " +
                             percent(mean(*runner_up)) + " on average.");
     }
+    if (const std::string kept = budgets_sentence(results); !kept.empty()) sentences.push_back(kept);
     return sentences;
 }
 

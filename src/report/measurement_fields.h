@@ -12,6 +12,8 @@ template <class M, class F>
 void each_field(M& m, F f) {
     f("missed_first_hit", m.missed_first_hit);
     f("early_hit", m.early_hit);
+    f("astray", m.astray);
+    f("astray_budget", m.astray_budget);
     f("uv_error_texels", m.uv_error_texels);
     f("height_error", m.height_error);
     f("normal_error_deg", m.normal_error_deg);
@@ -50,6 +52,8 @@ inline constexpr Column columns[] = {
     {wrong_id, "Wrong", "share", true, "pixels whose hit is off by more than half a texel along the ray, either way, or not found"},
     {"missed_first_hit", "Missed", "share", true, "pixels whose first hit is missed: late by more than half a texel, or not found"},
     {"early_hit", "Early", "share", true, "pixels that stop more than half a texel before the surface"},
+    {"astray", "Astray", "share", true, "pixels whose hit is not where the technique promises"},
+    {"astray_budget", "Allowed astray", "share", true, "the most of them that the catalogue allows the technique on this relief from this view"},
     {"uv_error_texels.p50", "UV error p50", "texels", true, "median distance between the found and the true texture coordinate"},
     {"uv_error_texels.p99", "UV error p99", "texels", true, "99 of 100 pixels are nearer to the true texture coordinate than this"},
     {"uv_error_texels.max", "UV error max", "texels", true, "largest distance to the true texture coordinate"},

@@ -42,7 +42,7 @@ Json rounded(double value) {
 
 Json technique_json(const Technique& t, const Results& results) {
     Json json{{"id", t.id}, {"title", t.title}, {"summary", t.summary}, {"author", t.source.author}, {"year", t.source.year},
-              {"paper", t.source.title}, {"exact", t.exact}, {"limits", t.limits}, {"known", true}};
+              {"paper", t.source.title}, {"exact", t.exact}, {"limits", t.limits}, {"promise", promise_text(t)}, {"known", true}};
     json["effects"] = {{"motion parallax", t.effects.motion_parallax}, {"self-occlusion", t.effects.self_occlusion},
                        {"self-shadow", t.effects.self_shadow}, {"silhouette", t.effects.silhouette}};
     json["maps"] = Json::array();

@@ -47,6 +47,7 @@ std::string results_csv(const Results& results) {
         std::decay_t<decltype(*measured)> value{};
         each_part(value, [&](const std::string& part, double) { put(part.empty() ? name : name + "_" + part); });
     });
+    put("inside_budget");
     for (const char* name : {"image", "error_image", "reference_image", "fetches_image"}) put(name);
     csv += "\r\n";
 
@@ -62,6 +63,8 @@ std::string results_csv(const Results& results) {
             if (measured) value = *measured;
             each_part(value, [&](const char*, double v) { put(measured ? number(v) : std::string{}); });
         });
+        const Measured<bool> inside = inside_budget(r.m);
+        put(!inside ? "" : *inside ? "yes" : "no");
         for (const std::string& path : {r.image, r.error_image, r.reference_image, r.fetches_image}) put(path);
         csv += "\r\n";
     }

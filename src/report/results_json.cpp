@@ -57,6 +57,9 @@ Json row_json(const Row& r, bool with_pictures) {
     row["knobs"] = Json::object();
     for (const auto& [id, value] : r.knobs) row["knobs"][id] = value;
     put_measurement(row, reasons, r.m);
+    const Measured<bool> inside = inside_budget(r.m);
+    row["inside_budget"] = inside ? Json(*inside) : Json(nullptr);
+    if (!inside) reasons["inside_budget"] = inside.reason;
     if (with_pictures) {
         const auto picture = [&](const char* name, const std::string& path) {
             row[name] = path.empty() ? Json(nullptr) : Json(path);
@@ -163,6 +166,10 @@ Row read_row(const Node& node) {
     for (const auto& [id, value] : knobs.json.items()) r.knobs.emplace_back(id, Node{value, node.source, knobs.path + "." + id}.number());
     each_field(r.m, [&](const char* name, auto& measured) {
         using T = std::decay_t<decltype(*measured)>;
+        if (!node.has(name) && std::string_view(name).starts_with("astray")) {  // absent from older files
+            measured = Measured<T>::missing("not recorded");
+            return;
+        }
         const Node field = node.at(name);
         if (field.json.is_null()) {
             measured = Measured<T>::missing(reason_for(node, name));

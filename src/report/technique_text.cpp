@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 namespace relievo {
 
@@ -36,6 +37,35 @@ std::string short_number(double value) {
 }
 
 std::string percent(double share) { return short_number(100 * share) + "\u202f%"; }
+
+std::string promise_text(const Technique& technique) {
+    // Where a promise depends on the view, it is told for the one that the figures use.
+    constexpr double elevation_deg = 30;
+    const float view_z = static_cast<float>(std::sin(elevation_deg * std::numbers::pi / 180));
+    const Promise p = promise_of(technique, default_params(technique), view_z);
+    std::string where;
+    if (technique.exact) {
+        where = "The first hit, up to rounding";
+    } else if (p.relief > 0) {
+        const std::string polygon = p.unmoved > 0 ? short_number(p.unmoved) + " times the hit's distance from the polygon and " : "";
+        where = "Seen at 30 degrees, a hit is off by no more than " + polygon + (p.relief == 1 ? "" : short_number(p.relief) + " times ") +
+                "the differences of height between polygon and hit" + (p.polygon ? ", or than the polygon itself" : "");
+    } else if (p.polygon) {
+        where = "The polygon: off by as much as the relief lies away from it";
+    } else {
+        where = "Within " + short_number(p.error) + " of the relief's height" + (p.texels > 0 ? " and " + short_number(p.texels) + " texel" : "") + " of a crossing of ray and surface";
+        if (p.stride >= 1) where += ", whichever";
+        else if (p.stride > 0) where += "; the first, unless the ray is inside the relief for less than " + short_number(p.stride) + " of its height there";
+        else where += "; the first, unless the ray is inside the relief for less than that there";
+    }
+    std::string share = ". So it is for all rays";
+    const Budget& b = technique.budget;
+    if (b.astray > 0 || b.per_wall > 0) {
+        share += " but " + (b.astray > 0 ? percent(static_cast<double>(b.astray)) + (b.per_wall > 0 ? " and " : "") : "");
+        if (b.per_wall > 0) share += percent(static_cast<double>(b.per_wall)) + " for each wall on their way (the mean slope over that of the ray)";
+    }
+    return where + share + ".";
+}
 
 std::string setting_text(const KnobValues& values) {
     std::string text;

@@ -8,6 +8,8 @@
 
 namespace relievo {
 
+struct Technique;
+
 // The technique's title, or its id where the catalogue does not know it (results of another version).
 std::string technique_title(std::string_view id);
 
@@ -25,5 +27,8 @@ std::string short_number(double value);
 
 // A share in [0,1] as "4.1 %", with a space at which no line breaks.
 std::string percent(double share);
+
+// What the row of the catalogue promises of where a hit lies, at its default knobs, and of how many hits: two sentences.
+std::string promise_text(const Technique& technique);
 
 }  // namespace relievo

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace relievo {
 
@@ -15,6 +16,15 @@ namespace {
 
 float share(int steps) { return 1.0f / static_cast<float>(steps); }
 float halved(float length, int times) { return std::ldexp(length, -times); }
+
+// The step of a count that goes by the view's cosine and is rounded.
+float cosine_step(const MarchParams& p, float view_z) {
+    return 1 / (view_z * static_cast<float>(p.min_steps) + (1 - view_z) * static_cast<float>(p.max_steps) - 0.5f);
+}
+
+// A shift of w (h - zero level) along the ray, where h is the height of some point between polygon and hit: off by w (h - hit) and by
+// (1 - w) (zero level - hit), and w is the view's cosine where the shift is not divided by it.
+Promise offset_limited(float view_z) { return {.unmoved = 1.0 - static_cast<double>(view_z), .relief = static_cast<double>(view_z)}; }
 
 constexpr Technique table[] = {
     {
@@ -27,7 +37,7 @@ constexpr Technique table[] = {
         .shaded_by = ShadedBy::polygon,
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 0; },
-        .budget = {.missed = 0.0f, .uv_p99_texels = 14.5f},
+        .promise = [](const MarchParams&, float) { return Promise{.polygon = true}; },
         .limits = "no relief of any kind",
     },
     {
@@ -40,7 +50,7 @@ constexpr Technique table[] = {
         .shaded_by = ShadedBy::height_slopes,
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 0; },
-        .budget = {.missed = 0.0f, .uv_p99_texels = 14.5f},
+        .promise = [](const MarchParams&, float) { return Promise{.polygon = true}; },
         .limits = "nothing shifts, hides or shadows: flat as soon as the view is grazing or moves",
     },
     {
@@ -52,7 +62,7 @@ constexpr Technique table[] = {
         .maps = {},
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 0; },
-        .budget = {.missed = 0.0f, .uv_p99_texels = 14.5f},
+        .promise = [](const MarchParams&, float) { return Promise{.polygon = true}; },
         .limits = "nothing shifts, hides or shadows: flat as soon as the view is grazing or moves",
     },
     {
@@ -65,7 +75,7 @@ constexpr Technique table[] = {
         .shaded_by = ShadedBy::emboss,
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 0; },
-        .budget = {.missed = 0.0f, .uv_p99_texels = 14.5f},
+        .promise = [](const MarchParams&, float) { return Promise{.polygon = true}; },
         .limits = "no highlights and no slopes across the light; steep slopes burn out or go black; nothing shifts, hides or shadows",
     },
     {
@@ -79,7 +89,7 @@ constexpr Technique table[] = {
         .maps = {Map::height},
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 1; },
-        .budget = {.missed = 0.55f, .uv_p99_texels = 7.4f},
+        .promise = [](const MarchParams&, float) { return Promise{.relief = 1}; },
         .limits = "the shift grows without bound at grazing views and tears the texture",
     },
     {
@@ -91,7 +101,7 @@ constexpr Technique table[] = {
         .maps = {Map::height},
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 1; },
-        .budget = {.missed = 0.009f, .uv_p99_texels = 10.0f},
+        .promise = [](const MarchParams&, float view_z) { return offset_limited(view_z); },
         .limits = "flattens toward the horizon; no part ever hides another",
     },
     {
@@ -103,7 +113,8 @@ constexpr Technique table[] = {
         .maps = {Map::height},
         .knobs = {{knob::iterations, 3}},
         .max_fetches = [](const MarchParams& p) { return p.iterations + 1; },
-        .budget = {.missed = 0.0015f, .uv_p99_texels = 9.0f},
+        .promise = [](const MarchParams&, float view_z) { return offset_limited(view_z); },
+        .budget = {.per_wall = 0.036f},
         .limits = "settles where a steeper ray would meet the field: flattens toward the horizon, and behind sharp edges shows whatever it lands on",
     },
     {
@@ -118,7 +129,6 @@ constexpr Technique table[] = {
         .maps = {Map::height},
         .knobs = {{knob::max_steps, 64}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps; },
-        .budget = {.missed = 0.004f, .uv_p99_texels = 0.27f},
         .limits = "slices the relief into terraces, and steps over what is thinner than a step",
     },
     {
@@ -132,7 +142,7 @@ constexpr Technique table[] = {
         .maps = {Map::height},
         .knobs = {{knob::refine_steps, 10}},
         .max_fetches = [](const MarchParams& p) { return p.refine_steps; },
-        .budget = {.missed = 0.046f, .uv_p99_texels = 4.5f},
+        .promise = [](const MarchParams& p, float) { return Promise{.error = halved(1, p.refine_steps), .stride = 1}; },
         .limits = "finds a hidden crossing wherever the ray meets the surface more than once: half of what a wall hides is shown, four tenths of its shadow are lit",
     },
     {
@@ -149,7 +159,6 @@ constexpr Technique table[] = {
         .maps = {Map::height},
         .knobs = {{knob::max_steps, 30}, {knob::refine_steps, 6}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps + p.refine_steps; },
-        .budget = {.missed = 0.0085f, .uv_p99_texels = 0.0092f},
         .limits = "sharp where it hits, but steps over what is thinner than a step",
     },
     {
@@ -164,7 +173,8 @@ constexpr Technique table[] = {
         .maps = {Map::height},
         .knobs = {{knob::max_steps, 30}, {knob::refine_steps, 2}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps + 1 + p.refine_steps; },
-        .budget = {.missed = 0.0085f, .uv_p99_texels = 0.059f},
+        .promise = [](const MarchParams& p, float) { return Promise{.error = share(8 * p.max_steps), .stride = share(p.max_steps)}; },
+        .budget = {.per_wall = 0.0125f},
         .limits = "creeps up to sheer steps, whose foot a chord does not see, and steps over what is thinner than a step",
     },
     {
@@ -181,7 +191,6 @@ constexpr Technique table[] = {
         .maps = {Map::height, Map::distance},
         .knobs = {{knob::max_steps, 32}, {knob::refine_steps, 6}},
         .max_fetches = [](const MarchParams& p) { return 2 * p.max_steps + p.refine_steps; },
-        .budget = {.missed = 0.01f, .uv_p99_texels = 0.01f},
         .limits = "a map of 64 slices, and fetches twice a step where walls are near; within a voxel of the surface it steps over what is thinner than a step",
     },
     {
@@ -193,7 +202,11 @@ constexpr Technique table[] = {
         .maps = {Map::height, Map::normal},
         .knobs = {},
         .max_fetches = [](const MarchParams&) { return 2; },
-        .budget = {.missed = 0.004f, .uv_p99_texels = 10.0f},
+        .promise = [](const MarchParams&, float view_z) {
+            Promise between = offset_limited(view_z);  // and no shift at all
+            between.polygon = true;
+            return between;
+        },
         .limits = "steep flanks stay where they are; no part ever hides another",
     },
     {
@@ -208,7 +221,8 @@ constexpr Technique table[] = {
         .maps = {Map::height, Map::normal},
         .knobs = {{knob::iterations, 4}},
         .max_fetches = [](const MarchParams& p) { return 2 * p.iterations; },
-        .budget = {.missed = 0.0125f, .uv_p99_texels = 6.5f},
+        .promise = [](const MarchParams& p, float view_z) { return Promise{.unmoved = std::pow(1 - view_z, static_cast<float>(p.iterations)), .relief = 1}; },
+        .budget = {.astray = 0.125f, .per_wall = 0.04f},
         .limits = "settles on whichever crossing is near, so steep walls smear",
     },
     {
@@ -219,14 +233,18 @@ constexpr Technique table[] = {
         .effects = {.motion_parallax = true, .self_occlusion = true, .self_shadow = true},
         .solves = {.level = true, .ramp = true, .wedge = true, .step = true},
         .precision = [](const MarchParams& p, float view_z) {
-            const float step = 1 / (view_z * static_cast<float>(p.min_steps) + (1 - view_z) * static_cast<float>(p.max_steps) - 0.5f);
+            const float step = cosine_step(p, view_z);
             return Precision{.error = step, .stride = step};
         },
         .converges = {&knob::max_steps, &knob::min_steps},
         .maps = {Map::height},
         .knobs = {{knob::max_steps, 64}, {knob::min_steps, 8}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps + 1; },
-        .budget = {.missed = 0.007f, .uv_p99_texels = 0.13f},
+        .promise = [](const MarchParams& p, float view_z) {
+            const double step = cosine_step(p, view_z);
+            return Promise{.error = step / 4, .stride = step};
+        },
+        .budget = {.per_wall = 0.025f},
         .limits = "cuts corners at steps, and steps over what is thinner than a step",
     },
     {
@@ -241,7 +259,8 @@ constexpr Technique table[] = {
         .maps = {Map::cone},
         .knobs = {{knob::max_steps, 64}, {knob::tolerance, 1e-3f}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps; },
-        .budget = {.missed = 0.014f, .uv_p99_texels = 0.86f},
+        .promise = [](const MarchParams& p, float) { return Promise{.error = p.tolerance, .texels = 1}; },
+        .budget = {.per_wall = 0.09f},
         .limits = "creeps beside thin spikes and stops short when its steps run out; cones blended between texels are too wide, so it enters sharp edges and ridges",
     },
     {
@@ -256,7 +275,8 @@ constexpr Technique table[] = {
         .maps = {Map::relaxed_cone},
         .knobs = {{knob::max_steps, 64}, {knob::refine_steps, 8}, {knob::tolerance, 1e-3f}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps + p.refine_steps; },
-        .budget = {.missed = 0.0105f, .uv_p99_texels = 0.22f},
+        .promise = [](const MarchParams& p, float) { return Promise{.error = std::max(p.tolerance, halved(1, p.refine_steps)), .texels = 1}; },
+        .budget = {.per_wall = 0.036f},
         .limits = "creeps beside thin spikes and stops short when its steps run out; cones blended between texels are too wide, so it may pass a sharp ridge",
     },
     {
@@ -271,7 +291,6 @@ constexpr Technique table[] = {
         .maps = {Map::height, Map::max_pyramid},
         .knobs = {{knob::max_steps, 2048}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps; },
-        .budget = {.missed = 1e-5f, .uv_p99_texels = 1e-2f},
         .exact = true,
         .limits = "none in what it finds; its cost grows with grazing views and spiky relief",
     },
@@ -289,7 +308,6 @@ constexpr Technique table[] = {
         .maps = {Map::height},
         .knobs = {{knob::max_steps, 30}, {knob::refine_steps, 2}, {knob::contact_steps, 4}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps + p.refine_steps * (p.contact_steps - 1); },
-        .budget = {.missed = 0.0085f, .uv_p99_texels = 0.036f},
         .limits = "steps over what is thinner than a step",
     },
     {
@@ -304,7 +322,7 @@ constexpr Technique table[] = {
         .maps = {Map::height, Map::robust_cone},
         .knobs = {{knob::max_steps, 48}, {knob::refine_steps, 8}},
         .max_fetches = [](const MarchParams& p) { return 2 * p.max_steps + p.refine_steps; },
-        .budget = {.missed = 0.0037f, .uv_p99_texels = 0.0055f},
+        .budget = {.per_wall = 0.0065f},
         .limits = "walks from cell to cell in rough relief and stops short when its steps run out; misses what is entered and left within a cell",
     },
     {
@@ -319,7 +337,6 @@ constexpr Technique table[] = {
         .maps = {Map::height, Map::cell_cone},
         .knobs = {{knob::max_steps, 2048}},
         .max_fetches = [](const MarchParams& p) { return p.max_steps; },
-        .budget = {.missed = 1e-5f, .uv_p99_texels = 1e-2f},
         .exact = true,
         .limits = "none in what it finds; its cost grows with grazing views and with spikes close together",
     },
@@ -352,6 +369,19 @@ std::span<const Technique> techniques() { return table; }
 const Technique* find_technique(std::string_view id) {
     const auto it = std::ranges::find(table, id, &Technique::id);
     return it == std::end(table) ? nullptr : it;
+}
+
+Promise promise_of(const Technique& technique, const MarchParams& params, float view_z) {
+    if (technique.promise) return technique.promise(params, view_z);
+    const Precision p = technique.precision(params, view_z);
+    return {.error = p.error, .stride = p.stride};
+}
+
+double wall_exposure(double rms_slope, double elevation_deg) { return rms_slope / std::tan(elevation_deg * std::numbers::pi / 180); }
+
+double astray_budget(const Technique& technique, double exposure) {
+    const Budget& b = technique.budget;
+    return std::min(1.0, astray_by_rounding + static_cast<double>(b.astray) + 1 - std::exp(-static_cast<double>(b.per_wall) * exposure));
 }
 
 MarchParams default_params(const Technique& technique) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/map_set.h"
+#include "core/promise.h"
 #include "techniques/glsl.h"
 #include "techniques/knobs.h"
 
@@ -74,12 +75,15 @@ struct Precision {
     float stride = 0;  // what the ray is inside of for less than this may be stepped over
 };
 
-// Upper bounds that hold at the default knobs on the contract's random fields, seen 30 degrees above the plane: about 1.3 times
-// what is measured there, and never above twice.
+// The share of rays that may break the row's promise, on any relief. Nothing but rounding for a search whose bound is a theorem; for
+// the others what was measured on the contract's fields and on thirty materials by others (docs/measured.md), and a margin above it.
 struct Budget {
-    float missed = 1.0f;         // share of first hits late by more than half a texel
-    float uv_p99_texels = 1e9f;  // 99th percentile of the UV error
+    float astray = 0;    // whatever the relief
+    float per_wall = 0;  // each unit of the picture's wall exposure loses this share of what was right until then
 };
+
+// What float may turn on a ray that only grazes something: measured at most 3e-4 on the thirty materials.
+inline constexpr double astray_by_rounding = 1e-3;
 
 // What the light falls on where the search has found its hit.
 enum class ShadedBy : int {
@@ -104,6 +108,8 @@ struct Technique {
     ShadedBy shaded_by = ShadedBy::normal_map;
     Few<KnobDefault, 4> knobs;
     int (*max_fetches)(const MarchParams&) = nullptr;  // most fetches the search may make with these knobs
+    // Where the hit lies, in terms that hold on any relief; null: what `precision` says. Either this or a precision is stated.
+    Promise (*promise)(const MarchParams&, float view_z) = nullptr;
     Budget budget = {};
     bool exact = false;        // finds the declared surface's first hit, up to float rounding
     std::string_view limits;   // where it fails
@@ -127,6 +133,17 @@ constexpr std::string_view title_of(ShadedBy shaded_by) {
     }
     return {};
 }
+
+// What the row promises of a ray at these knobs.
+Promise promise_of(const Technique& technique, const MarchParams& params, float view_z);
+
+// Walls that a ray passes, as the mean over a picture: the root mean square slope of the relief as drawn, over the tangent of the view's
+// elevation. At 1 a typical flank is as steep as the ray.
+double wall_exposure(double rms_slope, double elevation_deg);
+
+// The greatest share of rays that may break the promise at this exposure. Failures at each wall are independent, so that they
+// accumulate as 1 - exp(-rate * walls).
+double astray_budget(const Technique& technique, double exposure);
 
 // The technique's knobs at their defaults; knobs it does not declare hold values it never reads.
 MarchParams default_params(const Technique& technique);

@@ -49,7 +49,9 @@ void expect_row(const Json& row, const fs::path& folder) {
     expect_number(row, row, "elevation_deg", "elevation_deg", 0, 90);
     ASSERT_TRUE(row.contains("knobs") && row["knobs"].is_object());
     for (const auto& knob : row["knobs"].items()) EXPECT_TRUE(knob.value().is_number()) << knob.key();
-    for (const char* share : {"missed_first_hit", "early_hit", "shadow_mismatch", "flip"}) expect_number(row, row, share, share, 0, 1);
+    for (const char* share : {"missed_first_hit", "early_hit", "shadow_mismatch", "flip", "astray", "astray_budget"}) expect_number(row, row, share, share, 0, 1);
+    ASSERT_TRUE(row.contains("inside_budget") && row["inside_budget"].is_boolean());
+    EXPECT_TRUE(row["inside_budget"]) << row["astray"] << " of " << row["astray_budget"];
     expect_number(row, row, "ssim", "ssim", -1, 1);
     expect_number(row, row, "psnr_db", "psnr_db", 0, any);
     const auto group = [&](const std::string& field, const std::vector<std::string>& parts) {

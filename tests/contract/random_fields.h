@@ -50,4 +50,38 @@ inline HeightField rough_field(unsigned seed) {
     return field;
 }
 
+// Every texel on its own: walls on all sides of each.
+inline HeightField noise_field(unsigned seed) {
+    HeightField field(160, 112);
+    std::mt19937 random(seed);
+    for (float& h : field.texels.texels) h = static_cast<float>(random() >> 8) / 16777216.0f;
+    stretch_to_unit(field);
+    return field;
+}
+
+// Every texel on the floor or at the top by the toss of a coin: as many walls as a field of this size can have.
+inline HeightField coins_field(unsigned seed) {
+    HeightField field(160, 112);
+    std::mt19937 random(seed);
+    for (float& h : field.texels.texels) h = random() >> 31 != 0 ? 1.0f : 0.0f;
+    return field;
+}
+
+// Blocks of 5 to 11 texels on a side, each of its own height, with sheer walls between: what waves of any kind do not have.
+inline HeightField blocks_field(unsigned seed) {
+    HeightField field(80, 56);
+    std::mt19937 random(seed);
+    for (int k = 0; k < 220; ++k) {
+        const int x = static_cast<int>(random() % 80);
+        const int y = static_cast<int>(random() % 56);
+        const int wide = 5 + static_cast<int>(random() % 7);
+        const int deep = 5 + static_cast<int>(random() % 7);
+        const float h = static_cast<float>(random() >> 8) / 16777216.0f;
+        for (int j = y; j < y + deep; ++j)
+            for (int i = x; i < x + wide; ++i) field.texels(wrap_index(i, 80), wrap_index(j, 56)) = h;
+    }
+    stretch_to_unit(field);
+    return field;
+}
+
 }  // namespace relievo::contract

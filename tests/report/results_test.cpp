@@ -68,7 +68,7 @@ TEST(ResultsJson, SaysWhyANumberIsMissing) {
     EXPECT_EQ(out["reasons"]["flip"], "the pictures differ in size");
     EXPECT_EQ(out["reasons"]["gpu_ms"], "not measured");
     EXPECT_EQ(out["reasons"]["error_image"], "pictures were switched off");
-    EXPECT_EQ(out["reasons"].size(), 5u);
+    EXPECT_EQ(out["reasons"].size(), 5u) << out["reasons"];
 }
 
 TEST(ResultsJson, ComesBackAsItWas) {

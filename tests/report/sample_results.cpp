@@ -378,7 +378,7 @@ Results many_rows(int materials, int settings_per_technique) {
                 for (int s = 0; s < (technique.knobs.count ? settings_per_technique : 1); ++s) {
                     const double wrong = technique.exact ? 0 : 0.3 / t / (s + 1) * (1 + 0.5 * std::sin(i * 1.7 + view.elevation_deg));
                     Measurement m;
-                    m.missed_first_hit = wrong, m.early_hit = wrong / 7, m.flip = wrong / 3, m.ssim = 1 - wrong, m.psnr_db = 30 / (1 + wrong);
+                    m.missed_first_hit = wrong, m.early_hit = wrong / 7, m.astray = wrong / 2, m.astray_budget = wrong / 2 + 0.001, m.flip = wrong / 3, m.ssim = 1 - wrong, m.psnr_db = 30 / (1 + wrong);
                     m.uv_error_texels = Percentiles{wrong, wrong * 31, wrong * 77}, m.height_error = Percentiles{wrong / 9, wrong / 5, wrong};
                     m.normal_error_deg = Percentiles{wrong, wrong * 10, wrong * 90}, m.shadow_mismatch = wrong / 11;
                     m.fetches = FetchCount{4.123456 * t * (s + 1), 6.0 * t * (s + 1), 9.0 * t * (s + 1)};

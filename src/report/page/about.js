@@ -11,6 +11,7 @@ function draw_about() {
             fact("Knobs", ...technique.knobs.flatMap((knob, i) => [i ? "; " : "", el("span", { title: knob.help }, `${knob.title} ${knob.value}${knob.unit ? " " + knob.unit : ""}`)]));
         const shows = Object.entries(technique.effects).filter(([, claimed]) => claimed).map(([effect]) => effect);
         fact("Shows", shows.join(", ") || "shading only");
+        fact("Promises", technique.promise);
         fact("Fails", technique.limits);
         if (page.docs) fact("More", el("a", { href: page.docs.replace(/\/?$/, "/") + technique.id + ".md" }, "its chapter"));
         return el("article", {}, heading, el("p", { class: "idea" }, sentence(technique.summary)), facts);

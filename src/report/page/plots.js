@@ -1,5 +1,5 @@
 // Error against cost, drawn as SVG: one mark per setting, the Pareto front, exact techniques on the line at zero.
-const error_columns = () => page.columns.filter((c) => c.small && !/^(fetches|gpu_ms)/.test(c.id)
+const error_columns = () => page.columns.filter((c) => c.small && !/^(fetches|gpu_ms|astray_budget)/.test(c.id)
     && page.rows.some((row) => value_of(row, c.id) !== null));
 
 // Hues after Okabe and Ito, told apart by every kind of colour vision; with four shapes they name 28 techniques.

@@ -1,3 +1,9 @@
+// "inside", "outside", or "–" where no promise was judged.
+function budget_of(row) {
+    const astray = value_of(row, "astray"), allowed = value_of(row, "astray_budget");
+    return astray === null || allowed === null ? "–" : astray <= allowed ? "inside" : "outside";
+}
+
 // All rows: sortable by any column, filtered by material, view and words, copied as CSV. Rows are built once and then only moved;
 // a long table is laid out as far as it is scrolled.
 function make_table(state, open) {
@@ -10,6 +16,7 @@ function make_table(state, open) {
         { key: "technique", title: "Technique", of: (row) => row.t },
         { key: "material", title: "Material", of: (row) => page.materials[row.m].title },
         { key: "view", title: "View", of: (row) => row.e, number: true },
+        { key: "budget", title: "Budget", help: "whether no more pixels are astray than the catalogue allows", of: (row) => budget_of(row) },
         { key: "setting", title: "Setting", of: (row) => row.s },
         ...columns.map((c, i) => ({ key: c.id, title: c.title, unit: unit_of(c), help: c.help, column: c, of: (row) => row.n[i], number: true, descending_first: !c.small })),
     ];
@@ -19,7 +26,7 @@ function make_table(state, open) {
         if (!lines.has(row)) {
             lines.set(row, el("tr", {},
                 el("th", { scope: "row" }, el("button", { type: "button", class: "link", onclick: () => open(row) }, page.techniques[row.t].title)),
-                el("td", {}, page.materials[row.m].title), el("td", {}, view_title(row.m, row.v)), el("td", {}, row.s),
+                el("td", {}, page.materials[row.m].title), el("td", {}, view_title(row.m, row.v)), el("td", { class: "budget " + budget_of(row) }, budget_of(row)), el("td", {}, row.s),
                 ...columns.map((c, i) => el("td", { class: "number" + (row.n[i] === null ? " none" : ""), title: row.n[i] === null ? reason_of(row, c.id) : null }, shown(row.n[i], c)))));
         }
         return lines.get(row);
@@ -58,7 +65,7 @@ function make_table(state, open) {
         const from = body.rows.length;
         for (const row of shown_rows.slice(from, from + count)) {
             const line = line_of(row), numbers = best_numbers.get(row.m + "/" + row.v);
-            columns.forEach((_, i) => line.cells[i + 4].classList.toggle("best", row.n[i] !== null && row.n[i] === numbers[i]));
+            columns.forEach((_, i) => line.cells[i + 5].classList.toggle("best", row.n[i] !== null && row.n[i] === numbers[i]));
             body.append(line);
         }
     }
@@ -79,8 +86,8 @@ function make_table(state, open) {
     }
     function csv() {
         const quoted = (text) => (/[",\n]/.test(text) ? '"' + text.replaceAll('"', '""') + '"' : text);
-        const head = ["technique", "material", "view", "elevation_deg", "setting", ...columns.map((c) => c.id.replace(".", "_"))];
-        return [head, ...shown_rows.map((row) => [page.techniques[row.t].id, page.materials[row.m].id, page.views[row.v], row.e, row.s, ...row.n.map((v) => (Number.isFinite(v) ? v : ""))])]
+        const head = ["technique", "material", "view", "elevation_deg", "inside_budget", "setting", ...columns.map((c) => c.id.replace(".", "_"))];
+        return [head, ...shown_rows.map((row) => [page.techniques[row.t].id, page.materials[row.m].id, page.views[row.v], row.e, { inside: "yes", outside: "no" }[budget_of(row)] ?? "", row.s, ...row.n.map((v) => (Number.isFinite(v) ? v : ""))])]
             .map((line) => line.map((field) => quoted(String(field))).join(",")).join("\n") + "\n";
     }
     async function copy() {
