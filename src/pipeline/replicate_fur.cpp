@@ -120,7 +120,7 @@ FurUnit run_unit(const PublishedFur& published, const Subject& subject, const st
     GrownFur grown = grown_fur(subject.mesh, coat, {}, s.threads);
     unit.strands = grown.roots.roots.size();
     FurView view{.camera = view_of_sphere({0, 0, 0}, 1 + static_cast<double>(coat.length) * 0.6, s.width, s.height), .layers = 16, .passes = 1};
-    const FurFrames reference = trace_fur(curves_of(grown, coat, 4, s.threads), grown.mesh, coat, view, s.samples, s.threads, progress);
+    const FurFrames reference = trace_fur(curves_of(grown, coat, 4, {}, s.threads), grown.mesh, coat, view, s.samples, s.threads, progress);
 
     // Uniform layers: with their own normals and the quickest order, and the light that suits them best.
     Mesh mesh = grown.mesh;
