@@ -10,7 +10,7 @@ struct LayersUniforms {
     float fur_height;            // of the outermost layer
     float ambient, diffuse, specular, power;
     float skin_r, skin_g, skin_b;  // linear albedo under the fur
-    float unused;
+    float tilt, bend;              // of the strands of lapped patches, radians, as in strand_shape
 };
 
 // Values of the constant `lookup`.

@@ -70,7 +70,7 @@ void add_classic_options(CLI::App& verb, ClassicOptions& o) {
     verb.add_option("--map-size", o.map_size, "edge of a face of the maps, texels: a power of two from 4 to 4096")->capture_default_str()->group(group);
     verb.add_option("--addressing", o.addressing, "direction that is looked up. " + described(addressings))->capture_default_str()->group(group);
     verb.add_option("--neighbourhood", o.neighbourhood, "where no strand grows beside another. " + described(neighbourhoods) + "; or a radius in texels")->capture_default_str()->group(group);
-    verb.add_option("--seed", o.seed, "of the fur map")->capture_default_str()->group(group);
+    verb.add_option("--seed", o.seed, "of the fur map, in mode lapped too")->capture_default_str()->group(group);
     verb.add_option("--colour-map", o.colour_map, "picture that tints the strands, as one of real fur (default: the preset's colour)")->group(group);
     verb.add_option("--fur-map", o.fur_map, "FILE.dds or FILE.png: also write the map of strands, with all its levels as DDS")->group(group);
     verb.add_option("--tinted-map", o.tinted_map, "FILE.dds or FILE.png: the same, tinted by the colour map")->group(group);
@@ -124,6 +124,22 @@ ClassicSettings classic_settings(const ClassicOptions& o, const FurSettings& com
     s.gloss = common.coat.gloss;
     s.width_px = common.width;
     s.height_px = common.height;
+    s.passes = common.passes;
+    s.device = common.device;
+    s.measure = common.measure;
+    s.reference_samples = common.reference_samples;
+    s.threads = common.threads;
+    return s;
+}
+
+LappedFurSettings lapped_settings(const ClassicOptions& o, const FurSettings& common) {
+    LappedFurSettings s;
+    s.coat = common.coat;
+    s.seed = o.seed;
+    s.fit_light = true;
+    if (common.layers > 0) s.layers = common.layers;
+    s.width = common.width;
+    s.height = common.height;
     s.passes = common.passes;
     s.device = common.device;
     s.measure = common.measure;

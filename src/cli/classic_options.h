@@ -1,8 +1,9 @@
-// The options of `relievo fur --mode classic`.
+// The options of `relievo fur --mode classic` and `--mode lapped`.
 #pragma once
 
 #include "fur/coat.h"
 #include "pipeline/classic_picture.h"
+#include "pipeline/lapped_picture.h"
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -25,6 +26,9 @@ void add_classic_options(CLI::App& verb, ClassicOptions& options);
 
 // height and density in percent, 0: the default; `set` as NAME=VALUE. Throws UsageError.
 ClassicSettings classic_settings(const ClassicOptions& options, const FurSettings& common, double height, double density, const std::vector<std::string>& set);
+
+// Of mode lapped: the coat and the seed.
+LappedFurSettings lapped_settings(const ClassicOptions& options, const FurSettings& common);
 
 // The names that --set knows, a line each.
 std::string classic_knob_list();

@@ -145,6 +145,7 @@ void add_fur_command(CLI::App& app) {
                  "  relievo fur bunny.obj --mode classic --layers 8 --height 2 --density 10 --out 2009.png\n"
                  "  relievo fur spot.obj --grow-where mask@bald.png --grow-where up=-0.6..0.2 --out spot.png\n"
                  "  relievo fur bunny.obj --preset fox --wind 2 0 0.5 --animate 50 --out windy.png\n"
+                 "  relievo fur bunny.obj --mode lapped --out lapped.png\n"
                  "  relievo fur bunny.obj --preset fox --density 20 --export fox.hair --export fox.ply\n"
                  "  relievo fur cow.obj --layers 32 --size 640 400 --passes 1 --out quick.png\n\n" +
                  knob_list() + length_rule_list() + classic_knob_list());
@@ -155,7 +156,7 @@ void add_fur_command(CLI::App& app) {
         const CoatPreset& preset = preset_of(o->preset);
         s.coat = preset.coat;
         if (o->height > 0) s.coat.length = static_cast<float>(o->height / 100);
-        const bool classic = o->mode == "classic";
+        const bool classic = o->mode == "classic", lapped = o->mode == "lapped";
         if (!classic) {
             if (o->density > 0) s.coat.strands = std::max(1.0f, s.coat.strands * static_cast<float>(o->density / 100));
             for (const std::string& setting : o->set) set_knob(s.coat, setting);
@@ -173,15 +174,16 @@ void add_fur_command(CLI::App& app) {
         if (!o->reference.empty()) s.reference_samples = o->samples;
         s.lengths = length_rules_of(o->growth);
         take_motion(o->growth, o->out, s);
-        if (classic && (!s.lengths.empty() || length(s.forces.gravity) > 0 || length(s.forces.wind) > 0 || s.film.frames > 0))
-            throw UsageError("--grow-where, --gravity, --wind and --animate are for strands, not for --mode classic");
+        if (o->mode != "strands" && (!s.lengths.empty() || length(s.forces.gravity) > 0 || length(s.forces.wind) > 0 || s.film.frames > 0))
+            throw UsageError("--grow-where, --gravity, --wind and --animate are for strands, not for --mode " + o->mode);
         if (!o->growth.exported.empty()) {
-            if (classic) throw UsageError("--export writes strands, which --mode classic has none of");
+            if (o->mode != "strands") throw UsageError("--export writes strands, which --mode " + o->mode + " has none of");
             export_as_asked(o->in, o->growth, s, o->quiet);
             if (!drawn) return;
         }
-        const FurPicture p = classic ? classic_picture(o->in, classic_settings(o->classic, s, o->height, o->density, o->set), progress_display(o->quiet))
-                                     : fur_picture(o->in, s, progress_display(o->quiet));
+        const FurPicture p = classic  ? classic_picture(o->in, classic_settings(o->classic, s, o->height, o->density, o->set), progress_display(o->quiet))
+                             : lapped ? lapped_picture(o->in, lapped_settings(o->classic, s), progress_display(o->quiet))
+                                      : fur_picture(o->in, s, progress_display(o->quiet));
         if (!o->out.empty()) write_fur_picture(o->out, p.picture);
         if (!o->reference.empty()) write_fur_picture(o->reference, p.beside);
         if (!o->quiet)

@@ -33,7 +33,7 @@ void add_replicate_fur_command(CLI::App& replicate, const CommandLine& command_l
     verb->add_option("--samples", o->settings.samples, "rays a pixel of the reference")->check(CLI::Range(1, 1024))->capture_default_str();
     verb->add_option("--state", o->state, "FILE.json: keeps what is measured, and goes on from there");
     verb->add_option("--seconds", o->settings.seconds, "begin nothing more after so many seconds; run again with the same --state to go on")->check(CLI::NonNegativeNumber);
-    verb->add_option("--pictures", o->pictures, "folder: classic, strands and the reference side by side, of each mesh, height and density");
+    verb->add_option("--pictures", o->pictures, "folder: classic, lapped, strands and the reference side by side, of each mesh, height and density");
     verb->add_option("--page", o->page, "FILE.md: also write the page with all tables");
     verb->add_option("--csv", o->csv, "FILE.csv: a line per trial");
     verb->add_option("--device", o->settings.device, "software, or part of a device's name (relievo list devices)");

@@ -6,7 +6,7 @@
 
 namespace relievo {
 
-enum class FurKind { strands, classic };
+enum class FurKind { strands, classic, lapped };
 
 struct FurMode {
     FurKind kind;
@@ -19,6 +19,8 @@ struct FurMode {
 };
 
 inline constexpr FurMode fur_modes[] = {
+    {FurKind::lapped, "lapped", "Lapped patches", "one square of strands pasted along the comb again and again", "Lengyel, Praun, Finkelstein, Hoppe", 2001,
+     "Real-Time Fur over Arbitrary Surfaces", "every patch has the same strands, twice as many where patches lap"},
     {FurKind::classic, "classic", "Layers by direction", "uniform layers, textured by a map that the normal and the position look up", "Evangelista", 2009,
      "Renderização em tempo real de pelos aplicados sobre malhas tridimensionais arbitrárias obtidas de objetos reais", "strands are sparse where the surface is bent, and distant places share them"},
     {FurKind::strands, "strands", "Strands in object space", "each strand found where it stands, no texture", "relievo", 2026, "docs/concepts/fur.md",

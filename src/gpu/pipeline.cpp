@@ -38,7 +38,7 @@ vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout
     const vk::PipelineInputAssemblyStateCreateInfo assembly{
         .topology = has_vertices ? vk::PrimitiveTopology::eTriangleList : vk::PrimitiveTopology::eTriangleStrip};
     const vk::PipelineDepthStencilStateCreateInfo depth{
-        .depthTestEnable = has_depth, .depthWriteEnable = has_depth, .depthCompareOp = vk::CompareOp::eLess};
+        .depthTestEnable = has_depth, .depthWriteEnable = has_depth, .depthCompareOp = settings.blended ? vk::CompareOp::eLessOrEqual : vk::CompareOp::eLess};
     const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
     const vk::PipelineRasterizationStateCreateInfo raster{.lineWidth = 1};
     const vk::PipelineMultisampleStateCreateInfo one_sample{.rasterizationSamples = vk::SampleCountFlagBits::e1};

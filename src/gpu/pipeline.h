@@ -16,7 +16,8 @@ struct DrawPipeline {
     std::span<const vk::VertexInputAttributeDescription> attributes = {};  // of binding 0; none: a strip made up by the vertex program
     std::uint32_t vertex_bytes = 0;                                        // of binding 0, which holds a list of triangles
     vk::Format depth = vk::Format::eUndefined;  // of a depth target that is tested (nearer wins) and written; undefined: there is none
-    bool blended = false;  // over what is there, by the alpha of what is drawn; the target's alpha is then what has been covered
+    bool blended = false;  // over what is there, by the alpha of what is drawn; the target's alpha is then what has been covered,
+                           // and what lies in one plane is drawn over each other, not once
 };
 
 vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout, const DrawPipeline& settings);

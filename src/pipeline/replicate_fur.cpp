@@ -13,6 +13,7 @@
 #include "pipeline/fur_picture.h"
 #include "pipeline/fur_reference.h"
 #include "pipeline/grown_fur.h"
+#include "pipeline/lapped_picture.h"
 #include "pipeline/shown_picture.h"
 
 #include <algorithm>
@@ -102,10 +103,10 @@ struct Scratch {
 };
 
 struct Pictures {
-    std::optional<Image8> classic, strands, reference;
+    std::optional<Image8> classic, lapped, strands, reference;
 };
 
-FurUnit run_unit(const PublishedFur& published, const Subject& subject, const std::filesystem::path& file, double height, double density, LayersRenderer& layers_renderer, const ReplicateFurSettings& s,
+FurUnit run_unit(const PublishedFur& published, const Subject& subject, const std::filesystem::path& file, double height, double density, LayersRenderer& layers_renderer, LayersRenderer& lapped_renderer, const ReplicateFurSettings& s,
                  Pictures& pictures, const Progress& progress) {
     FurUnit unit{.mesh = std::string(published.mesh), .from = subject.from, .faces = subject.mesh.faces(), .published_faces = published.faces, .height_percent = height, .density_percent = density,
                  .strands = 0, .trials = {}};
@@ -142,6 +143,22 @@ FurUnit run_unit(const PublishedFur& published, const Subject& subject, const st
         t.light = fitted_light(layers_renderer, view, reference, classic.light);
         t.trial.frame_flip = fur_score(layers_renderer.draw(view), reference, s.threads).flip;
     }
+    // Patches of as many strands an area, in the same light.
+    LappedFurSettings patched;
+    patched.coat = coat;
+    patched.density = classic.map.density;
+    patched.threads = s.threads;
+    const LappedDress dress = lapped_dress(grown.mesh, patched);
+    lapped_renderer.load(dress.model(patched));
+    for (const int layers : {16, 32}) {
+        view.layers = layers;
+        view.passes = 1;
+        Timed& t = trials.emplace_back();
+        t.trial.mode = "lapped";
+        t.trial.layers = layers;
+        t.light = fitted_light(lapped_renderer, view, reference, patched.light);
+        t.trial.frame_flip = fur_score(lapped_renderer.draw(view), reference, s.threads).flip;
+    }
     for (const int layers : {2, 4, 8, 16, 0}) {
         FurTrial& t = trials.emplace_back().trial;
         t.mode = "strands";
@@ -152,11 +169,12 @@ FurUnit run_unit(const PublishedFur& published, const Subject& subject, const st
     for (int round = 0; round < s.rounds; ++round)
         for (Timed& t : trials) {
             FurFrames frames;
-            if (t.trial.mode == "classic") {
+            if (t.trial.mode != "strands") {
+                LayersRenderer& renderer = t.trial.mode == "lapped" ? lapped_renderer : layers_renderer;
                 view.layers = t.trial.layers;
                 view.passes = s.passes;
-                layers_renderer.set_light(t.light);
-                frames = layers_renderer.draw(view);
+                renderer.set_light(t.light);
+                frames = renderer.draw(view);
             } else {
                 FurSettings ours{.coat = coat, .layers = t.trial.chosen ? 0 : t.trial.layers, .width = s.width, .height = s.height, .passes = s.passes, .device = s.device, .threads = s.threads};
                 if (round == 0) {
@@ -175,6 +193,7 @@ FurUnit run_unit(const PublishedFur& published, const Subject& subject, const st
             t.trial.coverage_error = score.coverage_error;
             t.trial.gaps = score.gaps;
             if (t.trial.mode == "classic" && t.trial.layers == 16) pictures.classic = shown_fur(frames);
+            if (t.trial.mode == "lapped" && t.trial.layers == 16) pictures.lapped = shown_fur(frames);
             if (t.trial.chosen) pictures.strands = shown_fur(frames);
         }
     pictures.reference = shown_fur(reference);
@@ -217,7 +236,7 @@ FurReplication replicate_fur(const ReplicateFurSettings& s, const Progress& prog
     for (const std::filesystem::path& file : {s.page, s.csv, s.state})
         if (!file.empty()) require_writable(file);
     if (!s.pictures.empty()) std::filesystem::create_directories(s.pictures);
-    LayersRenderer layers_renderer(s.device);
+    LayersRenderer layers_renderer(s.device), lapped_renderer(s.device);
     FurReplication result{.device = layers_renderer.device_name(), .width = s.width, .height = s.height, .passes = s.passes, .samples = s.samples, .stand_ins = s.meshes.empty(), .units = {}};
     if (!s.state.empty() && std::filesystem::exists(s.state)) {
         std::ifstream in(s.state);
@@ -255,11 +274,11 @@ FurReplication replicate_fur(const ReplicateFurSettings& s, const Progress& prog
                 }
                 const Progress inside = [&](std::string_view, double share) { report(progress, "replicating fur on the " + std::string(published.mesh), (here + 0.5 * share) / steps); };
                 Pictures pictures;
-                result.units.push_back(run_unit(published, *subject, file, height, density, layers_renderer, s, pictures, inside));
+                result.units.push_back(run_unit(published, *subject, file, height, density, layers_renderer, lapped_renderer, s, pictures, inside));
                 if (!s.state.empty()) write_file_atomically(s.state, fur_replication_json(result));
                 if (!s.pictures.empty()) {
                     const std::string name = std::string(published.mesh) + "_" + std::to_string(static_cast<int>(height)) + "_" + std::to_string(static_cast<int>(density)) + ".png";
-                    write_png(s.pictures / name, side_by_side(side_by_side(*pictures.classic, *pictures.strands), *pictures.reference), FirstRow::top);
+                    write_png(s.pictures / name, side_by_side(side_by_side(*pictures.classic, *pictures.lapped), side_by_side(*pictures.strands, *pictures.reference)), FirstRow::top);
                 }
             }
     }

@@ -16,7 +16,7 @@ struct ReplicateFurSettings {
     std::vector<std::string> only;        // meshes by name; empty: all six
     std::vector<double> heights, densities;  // of the published ones, percent; empty: all
     std::filesystem::path state;          // .json: what is measured is kept there after every unit and not measured again; empty: nowhere
-    std::filesystem::path pictures;       // a folder for pictures of classic, strands and the reference side by side; empty: nowhere
+    std::filesystem::path pictures;       // a folder for pictures of classic, lapped, strands and the reference side by side; empty: nowhere
     std::filesystem::path page, csv;      // empty: nowhere
     double seconds = 0;                   // begin no further unit after so long; 0: no limit
     int width = 1280, height = 800;

@@ -20,7 +20,7 @@ namespace relievo {
 namespace {
 
 #include "shared/layers.h"
-static_assert(sizeof(LayersUniforms) == 16 * 4 && offsetof(LayersUniforms, skin_r) == 12 * 4, "shaders/shared/layers.h without holes");
+static_assert(sizeof(LayersUniforms) == 17 * 4 && offsetof(LayersUniforms, skin_r) == 12 * 4, "shaders/shared/layers.h without holes");
 static_assert(lookup_cube == static_cast<int>(MapShape::cube) && lookup_sphere == static_cast<int>(MapShape::sphere));
 static_assert(addressing_normal == static_cast<int>(Addressing::normal) && addressing_position == static_cast<int>(Addressing::position) &&
               addressing_sum == static_cast<int>(Addressing::normal_plus_position));
@@ -30,6 +30,11 @@ constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
 
 struct Vertex {
     Vec3f position, normal;
+};
+
+struct LappedVertex {
+    Vec3f position, normal, comb;
+    Vec2f uv;
 };
 
 struct Push {
@@ -61,7 +66,8 @@ struct LayersRenderer::State {
     gpu::Device device;
     vk::raii::DescriptorSetLayout set_layout = nullptr;
     vk::raii::PipelineLayout layout = nullptr;
-    vk::raii::Pipeline skin = nullptr, layers = nullptr;  // the second is made for each model
+    std::array<vk::raii::Pipeline, 2> skins{nullptr, nullptr};  // of plain meshes, of patches
+    vk::raii::Pipeline layers = nullptr;  // made for each model
     vk::raii::Sampler sampler = nullptr;
     gpu::Buffer uniforms_buffer;
     vk::raii::DescriptorPool pool = nullptr;
@@ -71,11 +77,26 @@ struct LayersRenderer::State {
     std::array<gpu::Image, 4> textures;  // fur and colour as cubes, then as discs
     vk::raii::DescriptorSets sets = nullptr;
     std::uint32_t index_count = 0;
+    bool lapped = false;
     LayersUniforms uniforms{};
 
     static constexpr auto stages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
     static constexpr vk::VertexInputAttributeDescription attributes[] = {{.location = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(Vertex, position)},
                                                                          {.location = 1, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(Vertex, normal)}};
+    static constexpr vk::VertexInputAttributeDescription lapped_attributes[] = {{.location = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(LappedVertex, position)},
+                                                                                {.location = 1, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(LappedVertex, normal)},
+                                                                                {.location = 2, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(LappedVertex, comb)},
+                                                                                {.location = 3, .format = vk::Format::eR32G32Sfloat, .offset = offsetof(LappedVertex, uv)}};
+
+    // With the vertices of plain meshes or of patches.
+    gpu::DrawPipeline program(bool patches, std::string_view fragment) const {
+        return {.vertex = program_words(patches ? "shells/lapped.vert" : "shells/layers.vert"),
+                .fragment = program_words(fragment),
+                .targets = std::span(&colour_format, 1),
+                .attributes = patches ? std::span<const vk::VertexInputAttributeDescription>(lapped_attributes) : attributes,
+                .vertex_bytes = static_cast<std::uint32_t>(patches ? sizeof(LappedVertex) : sizeof(Vertex)),
+                .depth = depth_format};
+    }
 
     State(const std::string& choice, bool validation) : device(gpu::DeviceSettings{.choice = choice, .validation = validation}) {
         using Type = vk::DescriptorType;
@@ -85,13 +106,7 @@ struct LayersRenderer::State {
         set_layout = {device.handle(), vk::DescriptorSetLayoutCreateInfo{.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()}};
         const vk::PushConstantRange range{.stageFlags = stages, .size = sizeof(Push)};
         layout = {device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1, .pSetLayouts = &*set_layout, .pushConstantRangeCount = 1, .pPushConstantRanges = &range}};
-        skin = gpu::make_pipeline(device, *layout,
-                                  {.vertex = program_words("shells/layers.vert"),
-                                   .fragment = program_words("shells/layers_skin.frag"),
-                                   .targets = std::span(&colour_format, 1),
-                                   .attributes = attributes,
-                                   .vertex_bytes = sizeof(Vertex),
-                                   .depth = depth_format});
+        for (const bool patches : {false, true}) skins[patches] = gpu::make_pipeline(device, *layout, program(patches, "shells/layers_skin.frag"));
         sampler = {device.handle(), vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
                                                           .minFilter = vk::Filter::eLinear,
                                                           .mipmapMode = vk::SamplerMipmapMode::eLinear,
@@ -109,10 +124,15 @@ struct LayersRenderer::State {
         const auto edge = device.physical().getProperties().limits.maxImageDimensionCube;
         if (model.fur->size() > static_cast<int>(edge) || model.colour->size() > static_cast<int>(edge))
             throw Error("draw", "a fur map of " + std::to_string(model.fur->size()) + " texels a side", device.info().name + " reads no more than " + std::to_string(edge));
-        vertices = gpu::make_buffer(device, mesh.positions.size() * sizeof(Vertex), vk::BufferUsageFlagBits::eVertexBuffer);
-        auto* to = vertices.as<Vertex>();
+        lapped = model.comb != nullptr;
+        assert(!lapped || (mesh.uvs.size() == mesh.positions.size() && model.comb->size() == mesh.positions.size() && model.fur->shape == MapShape::sphere));
+        vertices = gpu::make_buffer(device, mesh.positions.size() * (lapped ? sizeof(LappedVertex) : sizeof(Vertex)), vk::BufferUsageFlagBits::eVertexBuffer);
         parallel_for(static_cast<int>(mesh.positions.size()), 65536, 0, [&](int begin, int end) {
-            for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) to[v] = {mesh.positions[v], mesh.normals[v]};
+            for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v)
+                if (lapped)
+                    vertices.as<LappedVertex>()[v] = {mesh.positions[v], mesh.normals[v], (*model.comb)[v], mesh.uvs[v]};
+                else
+                    vertices.as<Vertex>()[v] = {mesh.positions[v], mesh.normals[v]};
         });
         index_count = static_cast<std::uint32_t>(mesh.indices.size());
         indices = gpu::make_buffer(device, mesh.indices.size() * 4, vk::BufferUsageFlagBits::eIndexBuffer);
@@ -134,17 +154,14 @@ struct LayersRenderer::State {
         device.handle().updateDescriptorSets(writes, {});
 
         const std::uint32_t constants[] = {static_cast<std::uint32_t>(model.fur->shape), static_cast<std::uint32_t>(model.addressing), model.filtered};
-        layers = gpu::make_pipeline(device, *layout,
-                                    {.vertex = program_words("shells/layers.vert"),
-                                     .fragment = program_words("shells/layers.frag"),
-                                     .fragment_constants = constants,
-                                     .targets = std::span(&colour_format, 1),
-                                     .attributes = attributes,
-                                     .vertex_bytes = sizeof(Vertex),
-                                     .depth = depth_format,
-                                     .blended = true});
+        gpu::DrawPipeline blended = program(lapped, lapped ? "shells/lapped.frag" : "shells/layers.frag");
+        if (!lapped) blended.fragment_constants = constants;
+        blended.blended = true;
+        layers = gpu::make_pipeline(device, *layout, blended);
         uniforms = {};
         uniforms.fur_height = model.height;
+        uniforms.tilt = model.tilt;
+        uniforms.bend = model.bend;
         uniforms.skin_r = model.skin.x;
         uniforms.skin_g = model.skin.y;
         uniforms.skin_b = model.skin.z;
@@ -228,7 +245,7 @@ FurFrames LayersRenderer::draw(const FurView& view) {
                 commands.beginRendering({.renderArea = {{0, 0}, extent}, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &into, .pDepthAttachment = &nearest});
                 commands.setViewport(0, vk::Viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1});
                 commands.setScissor(0, vk::Rect2D{{0, 0}, extent});
-                s.bind(commands, s.skin, {to_clip, 0});
+                s.bind(commands, s.skins[s.lapped], {to_clip, 0});
                 commands.drawIndexed(s.index_count, 1, 0, 0, 0);
                 s.bind(commands, s.layers, {to_clip, 1});
                 commands.drawIndexed(s.index_count, static_cast<std::uint32_t>(view.layers), 0, 0, 0);

@@ -1,4 +1,5 @@
-// Fur in uniform layers, headless: a texture that a direction looks up, on copies of the mesh pushed out along its normals.
+// Fur in uniform layers, headless: a texture that a direction looks up, on copies of the mesh pushed out along its normals; or one that lapped
+// patches look up, pushed out along their strands.
 #pragma once
 
 #include "core/mesh.h"
@@ -22,6 +23,8 @@ struct LayersModel {
     const DirectionMap* fur = nullptr;    // alpha: where strands stand
     const DirectionMap* colour = nullptr; // of the same shape
     Addressing addressing = Addressing::normal_plus_position;
+    const std::vector<Vec3f>* comb = nullptr;  // given: the mesh is one of lapped patches, and its uvs look up maps of shape sphere
+    float tilt = 0, bend = 0;             // of lapped strands along the comb, as in shaders/fur/strand_shape.glsl
     bool filtered = false;                // through the mip levels; else the finest alone, as the thesis does
     float height = 0.05f;                 // of the outermost layer, in radii
     LayersLight light;

@@ -118,6 +118,15 @@ TEST(Fur, ClassicKeepsTheSamePromise) {
         pictures.push_back(read_text(folder / "fur.png"));
         for (std::size_t i = 0; i + 1 < pictures.size(); ++i) EXPECT_NE(pictures[i], pictures.back()) << i << ' ' << (more.empty() ? "" : more[0]);
     }
+    // Lapped patches print the same.
+    const Ended pasted = run({"fur", mesh, "--mode", "lapped", "--quiet", "--size", "96", "64", "--passes", "2", "--density", "2", "--samples", "2", "--reference", folder / "beside.png", "--json"});
+    ASSERT_EQ(pasted.code, 0) << pasted.err;
+    const Json patches = Json::parse(pasted.out, nullptr, false);
+    EXPECT_EQ(patches["mode"], "lapped");
+    EXPECT_NEAR(patches["strands"].get<double>(), 6000, 2500);  // 4000 and what laps
+    EXPECT_LT(patches["density_p95_over_p5"].get<double>(), 8);
+    EXPECT_LT(patches["report"]["reference"]["flip"].get<double>(), 0.3);
+
     const std::string strands = folder / "strands.png", tinted = folder / "tinted.dds";
     const Ended mapped = run({"fur", mesh, "--mode", "classic", "--quiet", "--size", "96", "64", "--passes", "1", "--map", "sphere", "--map-size", "64", "--density", "25", "--neighbourhood", "4", "--colour-map", tint,
                               "--fur-map", strands, "--tinted-map", tinted, "--out", folder / "fur.png"});
@@ -236,6 +245,8 @@ TEST(Fur, RefusesWrongWordsWithAWayOn) {
                  {{"--json", "--mode", "classic", "--neighbourhood", "six"}, "none"},
                  {{"--json", "--mode", "classic", "--density", "150"}, "100 %"},
                  {{"--json", "--mode", "classic", "--set", "tilt=1"}, "ambient"},
+                 {{"--mode", "lapped", "--export", "fur.hair"}, "strands"},
+                 {{"--json", "--mode", "lapped", "--set", "ambient=1"}, "tilt"},
                  {{"--mode", "classic", "--fur-map", "map.jpg"}, "FILE.dds"},
                  {{"--mode", "classic", "--fur-map", "map.dds", "--dds-code", "bc9"}, "bc1"},
                  {{"--json", "--mode", "classic", "--set", "power=0"}, "1 to 1000"},

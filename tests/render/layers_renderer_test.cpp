@@ -2,6 +2,7 @@
 #include "render/layers_renderer.h"
 
 #include "fur/fur_map.h"
+#include "fur/lapped.h"
 #include "mesh/made_up_scan.h"
 #include "render/gpu_renderer.h"
 
@@ -134,6 +135,34 @@ TEST_F(LayersOnGpu, LookTexelsUpWhereTheTableSays) {
                 }
             EXPECT_GT(seen, 300);
         }
+}
+
+TEST_F(LayersOnGpu, LappedPatchesLeaveNoSeams) {
+    // A square full of strands: wherever patches meet, one of them covers.
+    const std::vector<Vec3f> comb(mesh.positions.size());
+    const Lapped patches = lapped(mesh, comb, {.radius = 0.35});
+    const DirectionMap full = direction_map(MapShape::sphere, {patch_texture(64, 1, 1)}, false), grey = plain(MapShape::sphere, 188);
+    renderer->load({.mesh = &patches.mesh, .fur = &full, .colour = &grey, .comb = &patches.comb, .height = 0.2f, .light = {.ambient = 1, .diffuse = 0, .specular = 0}, .skin = {0, 0, 0}});
+    const FurFrames f = renderer->draw(view);
+    for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 160; ++x) {
+            const double r = radius_at(view, x, y);
+            if (r < 1.1) { ASSERT_NEAR(f.colour(x, y, 0), 0.5, 0.01) << x << ' ' << y; }  // no skin, which is black
+            if (r < 1.17) { ASSERT_GT(f.coverage(x, y), 0.9) << x << ' ' << y; }
+            if (r > 1.22) { ASSERT_EQ(f.coverage(x, y), 0) << x << ' ' << y; }
+        }
+    // Strands that lean reach less far.
+    renderer->load({.mesh = &patches.mesh, .fur = &full, .colour = &grey, .comb = &patches.comb, .tilt = 0, .bend = 0, .height = 0.2f});
+    std::vector<Vec3f> side;
+    for (const Vec3f& n : patches.mesh.normals) side.push_back(cross(n, Vec3f(0, 1, 0)));
+    renderer->load({.mesh = &patches.mesh, .fur = &full, .colour = &grey, .comb = &side, .tilt = 1, .bend = 0.3f, .height = 0.2f});
+    const FurFrames leaning = renderer->draw(view);
+    double upright_sum = 0, leaning_sum = 0;
+    for (std::size_t p = 0; p < f.coverage.texels.size(); ++p) {
+        upright_sum += f.coverage.texels[p];
+        leaning_sum += leaning.coverage.texels[p];
+    }
+    EXPECT_LT(leaning_sum, 0.97 * upright_sum);
 }
 
 TEST_F(LayersOnGpu, AreTheSameEveryTime) {
