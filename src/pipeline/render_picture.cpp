@@ -5,18 +5,47 @@
 #include "core/error.h"
 #include "maps/back_side.h"
 #include "pipeline/map_set_bake.h"
+#include "pipeline/mesh_relief_picture.h"
 #include "pipeline/reference_picture.h"
 
 #include <filesystem>
 
 namespace relievo {
 
+namespace {
+
+void write_picture(const std::filesystem::path& out, const Frame& frame) {
+    if (out.extension() == ".exr") {
+        write_frame_exr(out, frame);
+    } else {
+        write_frame_png(out, frame.colour);
+    }
+}
+
+double mean_fetches(const Frame& frame) {
+    double sum = 0;
+    int hits = 0;
+    for (int y = 0; y < frame.height; ++y)
+        for (int x = 0; x < frame.width; ++x)
+            if (frame.coverage(x, y) != static_cast<std::uint8_t>(Coverage::background)) {
+                sum += static_cast<double>(frame.fetches(x, y));
+                ++hits;
+            }
+    return hits > 0 ? sum / hits : 0;
+}
+
+}  // namespace
+
 RenderedPicture render_picture(const RenderSettings& settings, const Progress& progress) {
     const std::filesystem::path out = settings.out;
-    const bool exr = out.extension() == ".exr";
-    if (!exr && out.extension() != ".png") throw UsageError("--out " + settings.out + ": a picture is written as .png or .exr");
+    if (out.extension() != ".exr" && out.extension() != ".png") throw UsageError("--out " + settings.out + ": a picture is written as .png or .exr");
     const AtomicFile probe(out);  // an unwritable target is known before the work
 
+    if (!settings.mesh.empty()) {
+        MeshReliefPicture drawn = mesh_relief_picture(settings, progress);
+        write_picture(out, drawn.frame);
+        return {.source = drawn.frame.source, .mean_fetches = mean_fetches(drawn.frame), .notes = std::move(drawn.notes), .mesh = drawn.facts};
+    }
     report(progress, "loading", 0);
     const PictureSettings& picture = settings.picture;
     const std::size_t drawn = settings.technique != nullptr ? 1 : 0;  // the reference needs no map of a technique's or a modifier's
@@ -42,24 +71,10 @@ RenderedPicture render_picture(const RenderSettings& settings, const Progress& p
                                    .threads = settings.material.threads},
                                   progress);
     }
-    if (exr) {
-        write_frame_exr(out, frame);
-    } else {
-        write_frame_png(out, frame.colour);
-    }
+    write_picture(out, frame);
     report(progress, "drawing", 1);
 
-    RenderedPicture result{.source = frame.source, .mean_fetches = 0, .notes = baked.notes};
-    double sum = 0;
-    int hits = 0;
-    for (int y = 0; y < frame.height; ++y)
-        for (int x = 0; x < frame.width; ++x)
-            if (frame.coverage(x, y) != static_cast<std::uint8_t>(Coverage::background)) {
-                sum += frame.fetches(x, y);
-                ++hits;
-            }
-    if (hits > 0) result.mean_fetches = sum / hits;
-    return result;
+    return {.source = frame.source, .mean_fetches = mean_fetches(frame), .notes = baked.notes, .mesh = {}};
 }
 
 }  // namespace relievo
