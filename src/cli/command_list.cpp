@@ -3,6 +3,7 @@
 #include "report/technique_text.h"
 #include "core/error.h"
 #include "core/suggest.h"
+#include "fur/fur_modes.h"
 #include "maps/map_kinds.h"
 #include "render/gpu_renderer.h"
 #include "scenes/published_tests.h"
@@ -48,6 +49,14 @@ Json technique_rows() {
                         {"promise", promise_text(t)},
                         {"limits", t.limits}});
     }
+    return rows;
+}
+
+// Fur is a family of its own: what draws layers of hair is not asked for a first hit (docs/architecture.md).
+Json fur_rows() {
+    Json rows = Json::array();
+    for (const FurMode& m : fur_modes)
+        rows.push_back({{"id", m.id}, {"year", m.year}, {"title", m.title}, {"summary", m.summary}, {"author", m.author}, {"paper", m.source}, {"limits", m.limits}});
     return rows;
 }
 
@@ -109,7 +118,7 @@ Json device_rows() {
 }
 
 constexpr Listing listings[] = {
-    {"techniques", technique_rows}, {"maps", map_rows},   {"scenes", scene_rows},
+    {"techniques", technique_rows}, {"fur", fur_rows}, {"maps", map_rows},   {"scenes", scene_rows},
     {"views", view_rows},           {"knobs", knob_rows}, {"modifiers", modifier_rows}, {"tests", test_rows},
     {"devices", device_rows},
 };
@@ -164,10 +173,10 @@ void print_table(const Json& rows) {
 }  // namespace
 
 void add_list_command(CLI::App& app) {
-    auto* verb = app.add_subcommand("list", "Shows what there is: techniques, maps, scenes, views, knobs, modifiers, published tests or devices");
+    auto* verb = app.add_subcommand("list", "Shows what there is: techniques, modes of fur, maps, scenes, views, knobs, modifiers, published tests or devices");
     auto what = std::make_shared<std::string>("techniques");
     auto json = std::make_shared<bool>(false);
-    verb->add_option("what", *what, "techniques | maps | scenes | views | knobs | modifiers | tests | devices")->capture_default_str();
+    verb->add_option("what", *what, "techniques | fur | maps | scenes | views | knobs | modifiers | tests | devices")->capture_default_str();
     verb->add_flag("--json", *json, "print JSON instead of a table");
     verb->footer("Examples:\n  relievo list\n  relievo list devices --json");
     verb->callback([what, json] {
@@ -178,6 +187,10 @@ void add_list_command(CLI::App& app) {
                 std::printf("%s\n", rows.dump(2).c_str());
             } else {
                 print_table(rows);
+                if (*what == "techniques") {
+                    std::printf("\nFur, drawn by relievo fur --mode:\n");
+                    print_table(fur_rows());
+                }
             }
             return;
         }

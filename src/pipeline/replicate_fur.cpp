@@ -14,6 +14,7 @@
 #include "pipeline/fur_reference.h"
 #include "pipeline/grown_fur.h"
 #include "pipeline/lapped_picture.h"
+#include "pipeline/scratch_folder.h"
 #include "pipeline/shown_picture.h"
 
 #include <algorithm>
@@ -86,21 +87,6 @@ double median(std::vector<double> values) {
     std::ranges::sort(values);
     return values[values.size() / 2];
 }
-
-// A folder that goes with what is in it.
-struct Scratch {
-    std::filesystem::path path;
-    Scratch() {
-        path = std::filesystem::temp_directory_path() / ("relievo-fur-" + std::to_string(std::chrono::steady_clock::now().time_since_epoch().count()));
-        std::filesystem::create_directories(path);
-    }
-    ~Scratch() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path, ignored);
-    }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-};
 
 struct Pictures {
     std::optional<Image8> classic, lapped, strands, reference;
@@ -249,7 +235,7 @@ FurReplication replicate_fur(const ReplicateFurSettings& s, const Progress& prog
     const auto done = [&](std::string_view mesh, double height, double density) {
         return std::ranges::any_of(result.units, [&](const FurUnit& u) { return u.mesh == mesh && u.height_percent == height && u.density_percent == density; });
     };
-    const Scratch scratch;
+    const ScratchFolder scratch;
     int step = 0;
     const std::vector<double> heights = s.heights.empty() ? std::vector(std::begin(published_fur_heights), std::end(published_fur_heights)) : s.heights;
     const std::vector<double> densities = s.densities.empty() ? std::vector(std::begin(published_fur_densities), std::end(published_fur_densities)) : s.densities;

@@ -7,12 +7,14 @@
 #include "effects/effects_table.h"
 #include "explain/search_figure.h"
 #include "figure/svg.h"
+#include "fur/fur_modes.h"
 #include "heightfield_functions.h"
 #include "maps/map_kinds.h"
 #include "measure/error_picture.h"
 #include "measure/hits.h"
 #include "pipeline/compare.h"
 #include "pipeline/extrusion_figure.h"
+#include "pipeline/fur_figures.h"
 #include "pipeline/map_set_bake.h"
 #include "pipeline/picture_sheet.h"
 #include "pipeline/reference_picture.h"
@@ -219,6 +221,9 @@ std::string techniques_page() {
     for (const Technique& t : techniques())
         out << "| " << t.source.year << " | [" << t.title << "](techniques/" << t.id << ".md) | " << t.summary << " | " << map_names(t) << " | "
             << effect_names(t.effects) << " | " << t.limits << " |\n";
+    out << "\n## Fur\n\nLayers of hair are a family of their own (`relievo fur --mode`): they are not asked for a first hit but for how much of a pixel they cover.\n\n"
+           "| year | mode | it ... | where it fails |\n|---|---|---|---|\n";
+    for (const FurMode& m : fur_modes) out << "| " << m.year << " | [" << m.title << "](../" << m.chapter << ") (`" << m.id << "`) | " << m.summary << " | " << m.limits << " |\n";
     out << "\n[The table of effects](effects.md) says how much of each effect was measured.\n";
     return out.str();
 }
@@ -369,6 +374,7 @@ void write_docs(const DocsSettings& settings, const Progress& progress) {
 
     if (figures) {
         write_file_atomically(out / "figures" / "mesh-extrusion.svg", svg_text(extrusion_figure(), Paper::either));
+        write_fur_figures(out / "figures", settings.device, settings.threads);
         // Every modifier under all its values, where it shows.
         for (const Modifier& m : modifiers()) {
             VarySettings vary = example_of(m);

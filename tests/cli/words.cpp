@@ -117,7 +117,7 @@ TEST(Words, HelpOfEveryVerbHasAnExampleAndEveryOptionAText) {
 TEST(Words, ListsAreTablesOrJson) {
     const std::vector<std::pair<std::string, std::string>> lists{{"techniques", "id"}, {"maps", "id"},     {"scenes", "id"},
                                                                  {"views", "id"},      {"knobs", "id"},    {"tests", "id"},
-                                                                 {"devices", "name"},  {"modifiers", "value"}};
+                                                                 {"devices", "name"},  {"modifiers", "value"}, {"fur", "id"}};
     for (const auto& [list, key] : lists) {
         SCOPED_TRACE(list);
         const Ended table = run({"list", list});

@@ -1,0 +1,13 @@
+// The figures of the chapters on fur, on a made-up scan and a torus.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace relievo {
+
+// fur-addressing.png: the three addressings; fur-maps.png: cubes of two sizes and a disc; fur-modes.png: every mode and the traced
+// strands. Throws Error.
+void write_fur_figures(const std::filesystem::path& folder, const std::string& device, int threads);
+
+}  // namespace relievo
