@@ -145,7 +145,7 @@ FurUnit run_unit(const PublishedFur& published, const Subject& subject, const st
         t.light = fitted_light(lapped_renderer, view, reference, patched.light);
         t.trial.frame_flip = fur_score(lapped_renderer.draw(view), reference, s.threads).flip;
     }
-    for (const int layers : {2, 4, 8, 16, 0}) {
+    for (const int layers : {1, 2, 4, 8, 16, 0}) {
         FurTrial& t = trials.emplace_back().trial;
         t.mode = "strands";
         t.layers = layers;
