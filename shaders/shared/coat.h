@@ -31,6 +31,9 @@ struct CoatUniforms {
     float sample_shift;             // which of the noise patterns decides on partly covered samples, [0,1)
     float off;                      // how far the layers' mesh may be off the surface on which roots grow
     float guard_hairs;              // share of strands that are twice as thick and never short
+    int strands, pieces;            // of plotted strands: how many, and of how many straight pieces each
+    int width_px, height_px;        // of the picture they are plotted into
+    float thinnest;                 // pixels: what is thinner is plotted this wide, and fewer
 };
 
 #endif

@@ -63,6 +63,10 @@ Json fur_json(const FurPicture& p, const std::string& preset, const std::string&
                                {"gaps", rounded(p.score->gaps)},
                                {"samples", p.score->samples},
                                {"ms", rounded(p.score->reference_ms)}};
+    for (std::size_t i = 0; i < p.stages.size(); ++i) {
+        const FurStages& f = p.stages[i];
+        report["stages_ms"][i == 0 ? "first" : "last"] = {{"light", rounded(f.light)}, {"skin", rounded(f.skin)}, {"grow", rounded(f.grow)}, {"plot", rounded(f.plot)}, {"shade", rounded(f.shade)}, {"copy", rounded(f.copy)}};
+    }
     if (p.light) report["light"] = classic_report(p);
     std::string_view mode;
     for (const FurMode& m : fur_modes)
@@ -156,7 +160,9 @@ void add_fur_command(CLI::App& app) {
         const CoatPreset& preset = preset_of(o->preset);
         s.coat = preset.coat;
         if (o->height > 0) s.coat.length = static_cast<float>(o->height / 100);
-        const bool classic = o->mode == "classic", lapped = o->mode == "lapped";
+        for (const FurMode& m : fur_modes)
+            if (m.id == o->mode) s.mode = m.kind;
+        const bool classic = s.mode == FurKind::classic, lapped = s.mode == FurKind::lapped;
         if (!classic) {
             if (o->density > 0) s.coat.strands = std::max(1.0f, s.coat.strands * static_cast<float>(o->density / 100));
             for (const std::string& setting : o->set) set_knob(s.coat, setting);

@@ -193,9 +193,12 @@ Device::Device(const DeviceSettings& settings) : messages_(std::make_unique<Mess
         const float priority = 1;
         const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = queue_family_, .queueCount = 1, .pQueuePriorities = &priority};
         // maintenance4 because SPIR-V 1.6 states a workgroup's size in the way that it brings; Vulkan 1.3 devices all have it.
-        const vk::PhysicalDeviceVulkan13Features features{.synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
+        const auto offered = physical_.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
+        has_wide_atomics_ = offered.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64 && offered.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics;
+        vk::PhysicalDeviceVulkan12Features atomics{.shaderBufferInt64Atomics = has_wide_atomics_};
+        const vk::PhysicalDeviceVulkan13Features features{.pNext = &atomics, .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
         counts_vertices_ = physical_.getFeatures().pipelineStatisticsQuery;
-        const vk::PhysicalDeviceFeatures basic{.pipelineStatisticsQuery = counts_vertices_};
+        const vk::PhysicalDeviceFeatures basic{.pipelineStatisticsQuery = counts_vertices_, .shaderInt64 = has_wide_atomics_};
         device_ = vk::raii::Device(
             physical_, vk::DeviceCreateInfo{.pNext = &features,
                                             .queueCreateInfoCount = 1,

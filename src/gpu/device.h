@@ -50,6 +50,7 @@ public:
     std::uint32_t queue_family() const { return queue_family_; }
     double nanoseconds_per_tick() const { return nanoseconds_per_tick_; }
     bool counts_vertices() const { return counts_vertices_; }  // has pipeline statistics
+    bool has_wide_atomics() const { return has_wide_atomics_; }  // atomic minima of 64 bits in buffers
 
     // Records commands, runs them and waits for their end.
     void run(const std::function<void(const vk::raii::CommandBuffer&)>& record) const;
@@ -66,7 +67,7 @@ private:
     DeviceInfo info_;
     std::uint32_t queue_family_ = 0;
     double nanoseconds_per_tick_ = 1;
-    bool counts_vertices_ = false;
+    bool counts_vertices_ = false, has_wide_atomics_ = false;
     vk::raii::Device device_ = nullptr;
     vk::raii::Queue queue_ = nullptr;
     vk::raii::CommandPool pool_ = nullptr;

@@ -10,23 +10,29 @@ vk::raii::ShaderModule module_of(const Device& device, std::span<const std::uint
     return {device.handle(), vk::ShaderModuleCreateInfo{.codeSize = words.size_bytes(), .pCode = words.data()}};
 }
 
+// Specialization constants numbered from 0.
+struct Constants {
+    explicit Constants(std::span<const std::uint32_t> values) {
+        for (std::uint32_t i = 0; i < values.size(); ++i)
+            entries.push_back({.constantID = i, .offset = i * static_cast<std::uint32_t>(sizeof(std::uint32_t)), .size = sizeof(std::uint32_t)});
+        info = vk::SpecializationInfo{.mapEntryCount = static_cast<std::uint32_t>(entries.size()), .pMapEntries = entries.data(), .dataSize = values.size_bytes(), .pData = values.data()};
+    }
+    Constants(const Constants&) = delete;
+    Constants& operator=(const Constants&) = delete;
+    std::vector<vk::SpecializationMapEntry> entries;
+    vk::SpecializationInfo info;
+};
+
 }  // namespace
 
 vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout, const DrawPipeline& settings) {
     const auto vertex = module_of(device, settings.vertex);
     vk::raii::ShaderModule fragment = nullptr;
     if (!settings.fragment.empty()) fragment = module_of(device, settings.fragment);
-    std::vector<vk::SpecializationMapEntry> entries;
-    for (std::uint32_t i = 0; i < settings.fragment_constants.size(); ++i)
-        entries.push_back(
-            {.constantID = i, .offset = i * static_cast<std::uint32_t>(sizeof(std::uint32_t)), .size = sizeof(std::uint32_t)});
-    const vk::SpecializationInfo constants{.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
-                                           .pMapEntries = entries.data(),
-                                           .dataSize = settings.fragment_constants.size_bytes(),
-                                           .pData = settings.fragment_constants.data()};
+    const Constants constants(settings.fragment_constants);
     const vk::PipelineShaderStageCreateInfo stages[] = {
         {.stage = vk::ShaderStageFlagBits::eVertex, .module = *vertex, .pName = "main"},
-        {.stage = vk::ShaderStageFlagBits::eFragment, .module = *fragment, .pName = "main", .pSpecializationInfo = &constants}};
+        {.stage = vk::ShaderStageFlagBits::eFragment, .module = *fragment, .pName = "main", .pSpecializationInfo = &constants.info}};
 
     const bool has_vertices = !settings.attributes.empty();
     const bool has_depth = settings.depth != vk::Format::eUndefined;
@@ -73,10 +79,11 @@ vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout
                                            .layout = layout}};
 }
 
-vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout, std::span<const std::uint32_t> compute) {
+vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout, std::span<const std::uint32_t> compute, std::span<const std::uint32_t> values) {
     const auto module = module_of(device, compute);
+    const Constants constants(values);
     return {device.handle(), nullptr,
-            vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute, .module = *module, .pName = "main"},
+            vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute, .module = *module, .pName = "main", .pSpecializationInfo = &constants.info},
                                           .layout = layout}};
 }
 

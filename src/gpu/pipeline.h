@@ -21,6 +21,7 @@ struct DrawPipeline {
 };
 
 vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout, const DrawPipeline& settings);
-vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout, std::span<const std::uint32_t> compute);
+// constants: specialization constants 0, 1, 2 ...
+vk::raii::Pipeline make_pipeline(const Device& device, vk::PipelineLayout layout, std::span<const std::uint32_t> compute, std::span<const std::uint32_t> constants = {});
 
 }  // namespace relievo::gpu

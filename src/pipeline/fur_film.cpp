@@ -20,19 +20,20 @@ Vec3d turned(Vec3d p, double angle) {
 
 }  // namespace
 
-void film_fur(FurRenderer& renderer, const FurSkin& skin, const FurView& view, const FurForces& forces, const FurFilm& film, int threads) {
+void film_fur(FurPainter& painter, const FurView& view, const FurForces& forces, const FurFilm& film, int threads) {
+    const FurSkin skin = painter.skin();
     const double full_spin = film.turns_per_second * 2 * std::numbers::pi, h = 1 / (film.frames_per_second * steps_per_frame);
     FurMotion motion = settled(skin, {.gravity = forces.gravity}, threads);
     double angle = 0, time = 0;
     for (int frame = 0; frame < film.frames; ++frame) {
-        renderer.push(pushes_of(motion));
+        painter.push(pushes_of(motion));
         // The mesh stays where it is: camera and lights go round it the other way.
         FurView seen = view;
         seen.camera.camera.eye = turned(view.camera.camera.eye, -angle);
         seen.camera.camera.target = turned(view.camera.camera.target, -angle);
         seen.to_key = turned(view.to_key, -angle);
         seen.to_rim = turned(view.to_rim, -angle);
-        film.shown(frame, shown_fur(renderer.draw(seen)));
+        film.shown(frame, shown_fur(painter.draw(seen)));
         for (int step = 0; step < steps_per_frame; ++step) {
             const double start = std::min(time / start_seconds, 1.0), spin = full_spin * start;
             FurForces f = forces;

@@ -3,7 +3,7 @@
 
 #include "core/image.h"
 #include "fur/fur_motion.h"
-#include "render/fur_renderer.h"
+#include "pipeline/fur_painter.h"
 
 #include <functional>
 
@@ -16,8 +16,8 @@ struct FurFilm {
     std::function<void(int frame, const Image8& picture)> shown;  // takes each frame, counted from 0
 };
 
-// Draws the model that the renderer has loaded, whose layers `skin` describes. Begins as gravity alone holds it; the wind sets in with the first
+// Draws the fur that the painter has loaded. Begins as gravity alone holds it; the wind sets in with the first
 // frame, in gusts. `forces` are told in the space of the camera, in which the mesh turns: its `time` and `spin` are not looked at.
-void film_fur(FurRenderer& renderer, const FurSkin& skin, const FurView& view, const FurForces& forces, const FurFilm& film, int threads = 0);
+void film_fur(FurPainter& painter, const FurView& view, const FurForces& forces, const FurFilm& film, int threads = 0);
 
 }  // namespace relievo

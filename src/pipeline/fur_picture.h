@@ -10,6 +10,7 @@
 #include "pipeline/fur_film.h"
 #include "fur/fur_modes.h"
 #include "pipeline/fur_score.h"
+#include "render/fur_frames.h"
 #include "render/layers_renderer.h"
 
 #include <filesystem>
@@ -20,6 +21,7 @@
 namespace relievo {
 
 struct FurSettings {
+    FurKind mode = FurKind::strands;  // or shells
     std::string preset;     // empty: the first
     Coat coat;              // as the preset says, changed by options
     std::vector<LengthRule> lengths;  // where fur is shorter; masks are read here
@@ -47,6 +49,7 @@ struct FurPicture {
     std::optional<Evenness> evenness;
     std::optional<FurScore> score;
     std::optional<LayersLight> light;  // of mode classic
+    std::vector<FurStages> stages;  // of the first frame and of the last; empty where they are not told apart
     FurTimes ms;  // first_frame: from the loaded mesh to the first whole picture in memory, all steps in between included
     std::string device;
     FurFrames frames;  // of the picture

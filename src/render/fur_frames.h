@@ -18,10 +18,16 @@ struct FurView {
     int passes = 8;   // frames with their pixels' samples moved, averaged; at least 1
 };
 
+// Milliseconds of a frame's steps on the device. Light and growing take none where what they made could be kept.
+struct FurStages {
+    double light = 0, skin = 0, grow = 0, plot = 0, shade = 0, copy = 0;
+};
+
 struct FurFrames {
     ImageF colour;    // 3 channels, linear light, premultiplied by coverage: the backdrop is missing
     ImageF coverage;  // 1 channel, share of the pixel's samples that fur or skin covers
     std::vector<double> frame_ms;  // of each pass, from its submission to its picture in memory
+    std::vector<FurStages> stages;  // of each pass, where strands are plotted
 };
 
 // Adds one of `passes` pictures, RGBA as the device wrote it: colours sRGB-encoded and premultiplied by alpha. Frames begin as zeros.

@@ -7,7 +7,7 @@
 #include "gpu/image.h"
 #include "gpu/pipeline.h"
 #include "gpu/volume.h"
-#include "render/eye_matrix.h"
+#include "render/coat_uniforms.h"
 #include "render/programs.h"
 
 #include <algorithm>
@@ -23,35 +23,15 @@ namespace relievo {
 
 namespace {
 
-#include "shared/coat.h"
-static_assert(sizeof(CoatUniforms) == 44 * 4 && offsetof(CoatUniforms, root_r) == 31 * 4, "shaders/shared/coat.h without holes");
-
 constexpr vk::Format colour_format = vk::Format::eR8G8B8A8Srgb;
 constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
 constexpr std::uint32_t light_size = 1024;
-constexpr double light_range = 4;  // depth of the light's picture, in fur space: light.vert's unit cube is this wide
 
 struct Vertex {
     Vec3f position, normal, comb;
     float length;
     Vec3f push;
 };
-
-struct Push {
-    std::array<float, 16> to_clip, to_light;
-};
-static_assert(sizeof(Push) == 128);  // what every Vulkan device takes
-
-struct LightMatrices {
-    std::array<float, 16> to_clip, to_texture;
-};
-LightMatrices light_matrices(Vec3d to_light, double radius) {
-    const Vec3d back = normalize(to_light);
-    const Vec3d right = normalize(cross(std::abs(back.y) < 0.9 ? Vec3d(0, 1, 0) : Vec3d(1, 0, 0), back)), up = cross(back, right);
-    const Vec3d x = right * (1 / radius), y = up * (-1 / radius), z = back * (-1 / light_range);
-    return {matrix({{{x.x, x.y, x.z, 0}, {y.x, y.y, y.z, 0}, {z.x, z.y, z.z, 0.5}, {0, 0, 0, 1}}}),
-            matrix({{{x.x / 2, x.y / 2, x.z / 2, 0.5}, {y.x / 2, y.y / 2, y.z / 2, 0.5}, {z.x, z.y, z.z, 0.5}, {0, 0, 0, 1}}})};
-}
 
 vk::raii::BufferView texel_view(const gpu::Device& device, const gpu::Buffer& buffer, vk::Format format) {
     return {device.handle(), vk::BufferViewCreateInfo{.buffer = *buffer.handle, .format = format, .range = VK_WHOLE_SIZE}};
@@ -101,7 +81,7 @@ struct FurRenderer::State {
         std::vector<vk::DescriptorSetLayoutBinding> bindings;
         for (std::uint32_t b = 0; b < std::size(types); ++b) bindings.push_back({.binding = b, .descriptorType = types[b], .descriptorCount = 1, .stageFlags = stages});
         set_layout = {device.handle(), vk::DescriptorSetLayoutCreateInfo{.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()}};
-        const vk::PushConstantRange range{.stageFlags = stages, .size = sizeof(Push)};
+        const vk::PushConstantRange range{.stageFlags = stages, .size = sizeof(FurMatrices)};
         layout = {device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1, .pSetLayouts = &*set_layout, .pushConstantRangeCount = 1, .pPushConstantRanges = &range}};
         const vk::VertexInputAttributeDescription attributes[] = {{.location = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(Vertex, position)},
                                                                   {.location = 1, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(Vertex, normal)},
@@ -180,19 +160,7 @@ struct FurRenderer::State {
         writes.push_back({.dstSet = *sets[0], .dstBinding = 5, .descriptorCount = 1, .descriptorType = Type::eCombinedImageSampler, .pImageInfo = &lit});
         device.handle().updateDescriptorSets(writes, {});
 
-        const Coat& c = model.coat;
-        coat = {};
-        coat.fur_length = c.length;
-        coat.tilt = c.tilt;
-        coat.bend = c.bend;
-        coat.spread = c.spread;
-        coat.width = c.width * model.spacing;
-        coat.taper = c.taper;
-        coat.length_variation = c.length_variation;
-        coat.lock = c.lock;
-        coat.lock_frequency = 1 / (c.lock_size * LockNoise::hills);
-        coat.curl_radius = c.curl_radius * model.spacing;
-        coat.curl_turns = c.curl_turns;
+        coat = coat_uniforms(model.coat, model.spacing);
         coat.reach = model.grid->reach;
         coat.off = model.grid->off;
         coat.cells_per_unit = model.grid->cells_per_unit;
@@ -202,35 +170,20 @@ struct FurRenderer::State {
         coat.bricks_x = model.grid->size[0];
         coat.bricks_y = model.grid->size[1];
         coat.bricks_z = model.grid->size[2];
-        // Strands per area times the width they have on the whole way to the longest tip. Each takes 0.3 of an optical depth: what it covers,
-        // less what it scatters onward.
-        const float mean_width = 2 * coat.width * (0.5f + 0.3f * c.taper) * (1 - 0.5f * c.length_variation) * (1 + 0.6f * c.guard_hairs);
-        coat.extinction = 0.3f * mean_width / (model.spacing * model.spacing);
-        coat.root_r = c.root_colour.x;
-        coat.root_g = c.root_colour.y;
-        coat.root_b = c.root_colour.z;
-        coat.tip_r = c.tip_colour.x;
-        coat.tip_g = c.tip_colour.y;
-        coat.tip_b = c.tip_colour.z;
-        coat.colour_variation = c.colour_variation;
-        coat.grizzle = c.grizzle;
-        coat.countershade = c.countershade;
-        coat.gloss = c.gloss;
-        coat.guard_hairs = c.guard_hairs;
     }
 
-    void bind(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& pipeline, const Push& push, vk::Extent2D extent) const {
+    void bind(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& pipeline, const FurMatrices& push, vk::Extent2D extent) const {
         constexpr auto stages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
         commands.setViewport(0, vk::Viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1});
         commands.setScissor(0, vk::Rect2D{{0, 0}, extent});
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout, 0, {*sets[0]}, {});
-        commands.pushConstants<Push>(*layout, stages, 0, push);
+        commands.pushConstants<FurMatrices>(*layout, stages, 0, push);
         commands.bindVertexBuffers(0, {*vertices.handle}, {0});
         commands.bindIndexBuffer(*indices.handle, 0, vk::IndexType::eUint32);
     }
 
-    void record_light(const vk::raii::CommandBuffer& commands, const Push& push) const {
+    void record_light(const vk::raii::CommandBuffer& commands, const FurMatrices& push) const {
         gpu::transition(commands, light_depth, vk::ImageLayout::eUndefined, vk::ImageLayout::eDepthAttachmentOptimal);
         const vk::RenderingAttachmentInfo nearest{.imageView = *light_depth.view,
                                                   .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
@@ -279,33 +232,17 @@ FurFrames FurRenderer::draw(const FurView& view) {
         const std::size_t pixels = std::size_t{extent.width} * extent.height;
         const gpu::Buffer texels = gpu::make_buffer(s.device, pixels * 4, vk::BufferUsageFlagBits::eTransferDst);
 
-        s.coat.layers = view.layers;
-        s.coat.eye_x = static_cast<float>(camera.camera.eye.x);
-        s.coat.eye_y = static_cast<float>(camera.camera.eye.y);
-        s.coat.eye_z = static_cast<float>(camera.camera.eye.z);
-        s.coat.pixel_angle = static_cast<float>(2 * std::tan(camera.camera.fov_y_rad / 2) / camera.height);
-        const Vec3d key = normalize(view.to_key), rim = normalize(view.to_rim);
-        s.coat.key_x = static_cast<float>(key.x);
-        s.coat.key_y = static_cast<float>(key.y);
-        s.coat.key_z = static_cast<float>(key.z);
-        s.coat.rim_x = static_cast<float>(rim.x);
-        s.coat.rim_y = static_cast<float>(rim.y);
-        s.coat.rim_z = static_cast<float>(rim.z);
-
+        set_view(s.coat, view);
         FurFrames frames;
         frames.colour = ImageF(camera.width, camera.height, 3);
         frames.coverage = ImageF(camera.width, camera.height, 1);
         for (int pass = 0; pass < view.passes; ++pass) {
             const auto start = std::chrono::steady_clock::now();
-            // The first pass is the picture as a frame of a film would show it; those after it move samples and light a little.
-            const Vec2d r = quasirandom(pass);
-            const Vec2d shift = view.passes == 1 ? Vec2d{} : Vec2d(r.x - 0.5, r.y - 0.5);
-            const Vec2d l = quasirandom(pass * 3 + 1);
-            const LightMatrices light = light_matrices(key + Vec3d(l.x - 0.5, 0, l.y - 0.5) * (view.passes == 1 ? 0 : 0.12), 1.2 + s.coat.fur_length);
-            s.coat.sample_shift = static_cast<float>(pass * 0.6180339887498949 - std::floor(pass * 0.6180339887498949));
+            const FurPass moved = fur_pass(view, pass, s.coat.fur_length);
+            s.coat.sample_shift = moved.sample_shift;
             std::memcpy(s.coat_buffer.mapped, &s.coat, sizeof s.coat);
             s.device.run([&](const vk::raii::CommandBuffer& commands) {
-                s.record_light(commands, {light.to_clip, light.to_texture});
+                s.record_light(commands, moved.light);
                 gpu::transition(commands, colour, vk::ImageLayout::eUndefined, vk::ImageLayout::eColorAttachmentOptimal);
                 gpu::transition(commands, depth, vk::ImageLayout::eUndefined, vk::ImageLayout::eDepthAttachmentOptimal);
                 const vk::RenderingAttachmentInfo into{.imageView = *colour.view,
@@ -319,7 +256,7 @@ FurFrames FurRenderer::draw(const FurView& view) {
                                                           .storeOp = vk::AttachmentStoreOp::eDontCare,
                                                           .clearValue = vk::ClearDepthStencilValue{1, 0}};
                 commands.beginRendering({.renderArea = {{0, 0}, extent}, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &into, .pDepthAttachment = &nearest});
-                const Push push{eye_matrix(camera, shift), light.to_texture};
+                const FurMatrices& push = moved.eye;
                 s.bind(commands, s.skin, push, extent);
                 commands.drawIndexed(s.index_count, 1, 0, 0, 0);
                 s.bind(commands, s.strands[s.coat.curl_radius > 0], push, extent);
