@@ -2,6 +2,7 @@
 // layers fails the test in which it came.
 #pragma once
 
+#include "maps/horizon_map.h"
 #include "render/gpu_renderer.h"
 #include "small_maps.h"
 
@@ -37,6 +38,22 @@ protected:
     static inline std::size_t messages_seen = 0;
     static inline MapSet maps;
     static inline std::unique_ptr<GpuRenderer> renderer;
+};
+
+// With the maps that modifiers ask for, uploaded.
+class MaterialFixture : public GpuFixture {
+protected:
+    static void SetUpTestSuite() {
+        GpuFixture::SetUpTestSuite();
+        if (!renderer) return;
+        maps.horizon = horizon_map(maps.height);
+        material = renderer->upload(maps, height_scale, zero_level);
+    }
+    static void TearDownTestSuite() {
+        material.reset();
+        GpuFixture::TearDownTestSuite();
+    }
+    static inline std::shared_ptr<const GpuMaterial> material;
 };
 
 }  // namespace relievo::test

@@ -3,7 +3,6 @@
 #include "gpu_fixture.h"
 
 #include "maps/back_side.h"
-#include "maps/horizon_map.h"
 #include "measure/flip.h"
 #include "pipeline/compare.h"
 #include "pipeline/map_set_bake.h"
@@ -16,18 +15,8 @@ namespace {
 
 constexpr auto hit_value = static_cast<std::uint8_t>(Coverage::hit);
 
-class Modified : public test::GpuFixture {
+class Modified : public test::MaterialFixture {
 protected:
-    static void SetUpTestSuite() {
-        GpuFixture::SetUpTestSuite();
-        if (!renderer) return;
-        maps.horizon = horizon_map(maps.height);
-        material = renderer->upload(maps, height_scale, zero_level);
-    }
-    static void TearDownTestSuite() {
-        material.reset();
-        GpuFixture::TearDownTestSuite();
-    }
     static Frame drawn(const Technique& t, double elevation, const DrawOptions& options, std::vector<Vec2f> offsets = {{0, 0}}) {
         return renderer->draw(stage_at(elevation), *material, t, default_params(t),
                               {.width = across, .height = down, .options = options, .offsets = std::move(offsets)});
@@ -57,7 +46,6 @@ protected:
     }
     static constexpr int across = 240;
     static constexpr int down = 136;
-    static inline std::shared_ptr<const GpuMaterial> material;
 };
 
 TEST_F(Modified, everyValueDrawsWhatTheCpuTraces) {

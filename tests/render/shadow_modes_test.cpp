@@ -1,7 +1,6 @@
 // The ways of finding a shadow: the GPU's against the same text on the CPU, and each against the exact share of an area light.
 #include "gpu_fixture.h"
 
-#include "maps/horizon_map.h"
 #include "pipeline/reference_picture.h"
 #include "render/cpu_renderer.h"
 #include "techniques/catalogue.h"
@@ -9,18 +8,8 @@
 namespace relievo {
 namespace {
 
-class ShadowModes : public test::GpuFixture {
+class ShadowModes : public test::MaterialFixture {
 protected:
-    static void SetUpTestSuite() {
-        GpuFixture::SetUpTestSuite();
-        if (!renderer) return;
-        maps.horizon = horizon_map(maps.height);
-        material = renderer->upload(maps, height_scale, zero_level);
-    }
-    static void TearDownTestSuite() {
-        material.reset();
-        GpuFixture::TearDownTestSuite();
-    }
     static DrawOptions with(int shadow) {
         DrawOptions options;
         options.shadow = shadow;
@@ -37,7 +26,6 @@ protected:
         }
         return sum / n;
     }
-    static inline std::shared_ptr<const GpuMaterial> material;
 };
 
 TEST_F(ShadowModes, drawWhatTheCpuTraces) {
