@@ -7,6 +7,7 @@
 #include "fur/refined.h"
 #include "mesh/indexing.h"
 #include "mesh/normals.h"
+#include "mesh/simplify.h"
 #include "pipeline/classic_picture.h"
 #include "pipeline/fur_reference.h"
 #include "pipeline/fur_space.h"
@@ -47,7 +48,14 @@ LappedDress lapped_dress(const Mesh& mesh, const LappedFurSettings& s) {
     dress.radius = std::min(texel * s.texels / 2, 0.7);
     // Faces whose edges are a third of the radius, on the average.
     const double enough = area / (0.43 * dress.radius * dress.radius / 9);
-    dress.base = refined(mesh, static_cast<std::size_t>(std::clamp(4 * enough, 1.0, 4e6)));
+    // Six times that many are plenty: finer scans only cost time, in growing patches and in drawing them.
+    const auto most = static_cast<std::size_t>(std::clamp(6 * enough, 2000.0, 4e6));
+    if (mesh.faces() > most) {
+        dress.base = simplified(mesh, {.faces = most, .error = static_cast<double>(s.coat.length) / 10}, s.threads).mesh;
+        dress.base.normals = continuous_normals(dress.base, NormalMode::angle, s.threads);
+    } else {
+        dress.base = refined(mesh, static_cast<std::size_t>(std::clamp(4 * enough, 1.0, 4e6)));
+    }
     dress.patches = lapped(dress.base, combed(dress.base, mean_lean(s.coat), s.threads), {.radius = dress.radius, .seed = s.seed});
     dress.texture = patch_texture(s.texels, s.density, s.seed);
     dress.fur = direction_map(MapShape::sphere, {dress.texture}, false);

@@ -27,7 +27,7 @@ struct LappedFurSettings {
 
 // What a mesh wears and what draws it. `mesh` is in fur space and has unit normals.
 struct LappedDress {
-    Mesh base;                 // cut finer where faces were too large for patches
+    Mesh base;                 // simplified where faces are far smaller than patches, cut finer where they are larger
     Lapped patches;
     Image8 texture;
     DirectionMap fur, colour;
