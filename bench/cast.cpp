@@ -167,6 +167,11 @@ const bool registered = [] {
                                      [id](benchmark::State& state) {
                                          const HeightField field = field_of(id);
                                          for (auto _ : state) benchmark::DoNotOptimize(HeightFieldCaster(field));
+                                         const double start = now(false);
+                                         const EmbreeSurface grid(field, height_scale, EmbreeGeometry::grid, 0, field_size);
+                                         state.counters["grid_ms"] = 1e3 * (now(false) - start);
+                                         state.counters["grid_bytes_a_texel"] =
+                                             static_cast<double>(grid.bytes()) / (field_size * field_size);
                                      })
             ->UseRealTime()
             ->Unit(benchmark::kMillisecond);

@@ -7,6 +7,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <vector>
 
@@ -53,6 +54,13 @@ public:
     // Texels first to last (beyond a period: repeated) in both directions; heights times height_scale. Built for quality.
     EmbreeSurface(const HeightField& field, double height_scale, EmbreeGeometry geometry, int first, int last)
         : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
+        rtcSetDeviceMemoryMonitorFunction(
+            device_,
+            [](void* held, ssize_t bytes, bool) {
+                *static_cast<std::atomic<std::ptrdiff_t>*>(held) += bytes;
+                return true;
+            },
+            &bytes_);
         const auto side = static_cast<unsigned>(last - first + 1);
         const bool is_grid = geometry == EmbreeGeometry::grid;
         RTCGeometry mesh = rtcNewGeometry(device_, is_grid ? RTC_GEOMETRY_TYPE_GRID : RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -94,6 +102,9 @@ public:
     EmbreeSurface(const EmbreeSurface&) = delete;
     EmbreeSurface& operator=(const EmbreeSurface&) = delete;
 
+    // What it holds.
+    std::ptrdiff_t bytes() const { return bytes_; }
+
     // Packets [begin, end), with the hits' places written out.
     void packet16(const EmbreePackets& all, std::size_t begin, std::size_t end, EmbreeHit* hits) const {
         RTCIntersectContext context;
@@ -132,6 +143,7 @@ public:
     }
 
 private:
+    std::atomic<std::ptrdiff_t> bytes_{0};
     RTCDevice device_;
     RTCScene scene_;
 };

@@ -11,12 +11,17 @@ namespace relievo {
 struct CastGrid {
     int width = 0;  // texels of one period, as many cells
     int height = 0;
-    // The bilinear patches of 4x4 cells side by side, block after block, rows of blocks (the last of a row or column may hang
-    // over): 16 heights of the corner with the least x and y, 16 slopes along x there, 16 along y, 16 twists; cells of a block row
-    // by row.
+    // The heights of 4x4 cells side by side, block after block, rows of blocks (the last of a row or column may hang over): 5 rows
+    // of 5 texels, so that no cell needs another block, and 7 floats of nothing: two cache lines.
     const float* patches = nullptr;
     const std::uint16_t* tops = nullptr;  // the 16 cells' largest corners, as nodes
     int block_columns = 0;
+    // Of the blocks from each on along y (up) or x (right), roof_blocks of them: in the upper 16 bits the largest height, as nodes,
+    // in the lower the mean height of their cells' tops, rounded.
+    const std::uint32_t *roofs_up = nullptr, *roofs_right = nullptr;
+    // The blocks' largest heights, rounded up as nodes: up, column after column; right, row after row. Lines are repeated for
+    // another tops_slack blocks.
+    const float *tops_up = nullptr, *tops_right = nullptr;
     // All levels of the pyramid one above the other with one pitch, so that a node's place is arithmetic, not a table: row of node
     // row r of level l is r + stack - (stack >> l), where stack is twice the rows of level 0 rounded up to whole nodes of the top.
     // 16 bits, rounded up: a node of value q is no higher than q * node_unit.
@@ -28,9 +33,11 @@ struct CastGrid {
 
 inline constexpr int block_side = 4;
 inline constexpr int block_level = 2;  // of the pyramid: its nodes are the blocks' maxima
+inline constexpr int roof_blocks = 4;
+inline constexpr int tops_slack = 40;  // the rows of the widest bundle, and a vector
 inline constexpr int block_cells = block_side * block_side;
-// Where the parts of a block's patches begin.
-inline constexpr int patch_height = 0, patch_slope_x = 16, patch_slope_y = 32, patch_twist = 48, patch_floats = 64;
+// In a block's patches: from a texel to the next along y, and from a block to the next.
+inline constexpr int patch_pitch = block_side + 1, patch_floats = 32;
 
 inline constexpr float node_unit = 1.0f / 65535;
 

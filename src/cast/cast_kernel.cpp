@@ -59,11 +59,15 @@ void cast_lanes(const CastGrid& grid, const CastRay* rays, std::size_t vectors, 
         hit[k] = together[k] ? walk_together(grid, lanes[k], bundle[k], group[k]) : walk_alone(grid, lanes[k]);
     for (std::size_t k = 0; k < vectors; ++k) {
         const auto& [begin, gap, slope, bend, met] = hit[k];
-        const F square = hn::Sub(hn::Mul(slope, slope), hn::Mul(hn::Mul(hn::Set(d, 4.0f), bend), gap));
-        const auto [first, second] = roots_of(gap, slope, bend, square);
         const F zero = hn::Zero(d), far = hn::Set(d, never);
-        // The cell is known to hold a root: the first from its entry on.
-        const F root = hn::Min(hn::IfThenElse(hn::Ge(first, zero), first, far), hn::IfThenElse(hn::Ge(second, zero), second, far));
+        // The first root from the entry on, which the cell is known to hold, (-slope + sqrt(square)) / (2 bend), without
+        // cancellation.
+        const F square = hn::Sub(hn::Mul(slope, slope), hn::Mul(hn::Mul(hn::Set(d, 4.0f), bend), gap));
+        const F spread = hn::Sqrt(hn::Max(square, zero));
+        const FMask rises = hn::Ge(slope, zero);
+        const F quotient = hn::Div(hn::IfThenElse(rises, hn::Mul(hn::Set(d, -2.0f), gap), hn::Sub(spread, slope)),
+                                   hn::IfThenElse(rises, hn::Add(slope, spread), hn::Add(bend, bend)));
+        const F root = hn::IfThenElse(hn::Ge(quotient, zero), quotient, far);
         const F down = hn::Min(hn::Add(begin, hn::IfThenElse(hn::Ge(gap, zero), zero, root)), hn::Load(d, lanes[k].descent_end));
         const F z = hn::IfThenElse(met, hn::Sub(ray[k].z_start, down), ray[k].z_end);
         const F way = hn::Sub(z, ray[k].zero_level);

@@ -31,10 +31,20 @@ int levels_of(int width, int height) {
 
 }  // namespace
 
+// On cache lines, as they are read.
+struct alignas(64) PatchBlock {
+    float heights[patch_floats];
+};
+struct alignas(32) TopBlock {
+    std::uint16_t cells[block_cells];
+};
+
 struct HeightFieldCaster::Built {
-    std::vector<float> patches;
-    std::vector<std::uint16_t> tops;
+    std::vector<PatchBlock> patches;
+    std::vector<TopBlock> tops;
     std::vector<std::uint16_t> nodes;
+    std::vector<float> tops_up, tops_right;
+    std::vector<std::uint32_t> roofs_up, roofs_right;
     CastGrid grid;
     CastTarget target{};
     std::string target_name;
@@ -78,8 +88,8 @@ HeightFieldCaster::HeightFieldCaster(const HeightField& field, const CasterSetti
     const auto at = [](int row, int pitch) { return static_cast<std::size_t>(row) * static_cast<std::size_t>(pitch); };
     // One node of slack, as 32 bits are read where 16 are wanted.
     built->nodes.resize(at(grid.stack, grid.node_pitch) + 2);
-    built->tops.resize(at(block_rows, grid.block_columns) * block_cells);
-    built->patches.resize(at(block_rows, grid.block_columns) * patch_floats);
+    built->tops.resize(at(block_rows, grid.block_columns));
+    built->patches.resize(at(block_rows, grid.block_columns));
     std::uint16_t* const nodes = built->nodes.data();
     const float* const texels = field.texels.texels.data();
 
@@ -96,15 +106,18 @@ HeightFieldCaster::HeightFieldCaster(const HeightField& field, const CasterSetti
                 good &= h00 >= 0 && h00 <= 1;
                 const std::size_t block = at(j / block_side, grid.block_columns) + static_cast<std::size_t>(i / block_side);
                 const auto cell = static_cast<std::size_t>(j % block_side * block_side + i % block_side);
-                float* const patch = built->patches.data() + block * patch_floats + cell;
-                patch[patch_height] = h00;
-                patch[patch_slope_x] = h10 - h00;
-                patch[patch_slope_y] = h01 - h00;
-                patch[patch_twist] = (h11 - h01) - (h10 - h00);
                 const float top = std::max(std::max(h00, h10), std::max(h01, h11));
                 // What is no height is not made a node: it is refused below.
-                node_row[i] = built->tops[block * block_cells + cell] = top >= 0 && top <= 1 ? rounded_up(top) : std::uint16_t{0};
+                node_row[i] = built->tops[block].cells[cell] = top >= 0 && top <= 1 ? rounded_up(top) : std::uint16_t{0};
             }
+        }
+        for (int block = begin * grid.block_columns; block < end * grid.block_columns; ++block) {
+            const int first_i = block % grid.block_columns * block_side, first_j = block / grid.block_columns * block_side;
+            float* const patch = built->patches[static_cast<std::size_t>(block)].heights;
+            for (int v = 0; v < patch_pitch; ++v)
+                for (int u = 0; u < patch_pitch; ++u)
+                    patch[v * patch_pitch + u] =
+                        texels[at((first_j + v) % height, width) + static_cast<std::size_t>((first_i + u) % width)];
         }
         if (!good) valid = false;
     });
@@ -125,8 +138,45 @@ HeightFieldCaster::HeightFieldCaster(const HeightField& field, const CasterSetti
             }
         });
     }
-    grid.patches = built->patches.data();
-    grid.tops = built->tops.data();
+    const int columns = grid.block_columns;
+    std::vector<std::uint32_t> tops(at(block_rows, columns)), sums(tops.size());
+    for (std::size_t block = 0; block < tops.size(); ++block) {
+        const std::uint16_t* const of = built->tops[block].cells;
+        tops[block] = *std::max_element(of, of + block_cells);
+        for (int k = 0; k < block_cells; ++k) sums[block] += of[k];
+    }
+    const auto index = [&](int i, int j) { return at(j % block_rows, columns) + static_cast<std::size_t>(i % columns); };
+    const auto top = [&](int i, int j) { return static_cast<float>(tops[index(i, j)]) * node_unit; };
+    built->tops_up.resize(at(columns, block_rows + tops_slack));
+    built->tops_right.resize(at(block_rows, columns + tops_slack));
+    built->roofs_up.resize(tops.size());
+    built->roofs_right.resize(tops.size());
+    parallel_for(columns, 16, settings.threads, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i)
+            for (int j = 0; j < block_rows + tops_slack; ++j)
+                built->tops_up[at(i, block_rows + tops_slack) + static_cast<std::size_t>(j)] = top(i, j);
+    });
+    parallel_for(block_rows, 16, settings.threads, [&](int begin, int end) {
+        for (int j = begin; j < end; ++j) {
+            for (int i = 0; i < columns + tops_slack; ++i)
+                built->tops_right[at(j, columns + tops_slack) + static_cast<std::size_t>(i)] = top(i, j);
+            for (int i = 0; i < columns; ++i) {
+                std::uint32_t up = 0, right = 0, up_sum = 0, right_sum = 0;
+                for (int k = 0; k < roof_blocks; ++k) {
+                    up = std::max(up, tops[index(i, j + k)]), right = std::max(right, tops[index(i + k, j)]);
+                    up_sum += sums[index(i, j + k)], right_sum += sums[index(i + k, j)];
+                }
+                built->roofs_up[index(i, j)] = up << 16 | up_sum / (roof_blocks * block_cells);
+                built->roofs_right[index(i, j)] = right << 16 | right_sum / (roof_blocks * block_cells);
+            }
+        }
+    });
+    grid.roofs_up = built->roofs_up.data();
+    grid.roofs_right = built->roofs_right.data();
+    grid.tops_up = built->tops_up.data();
+    grid.tops_right = built->tops_right.data();
+    grid.patches = built->patches.data()->heights;
+    grid.tops = built->tops.data()->cells;
     grid.nodes = nodes;
     built_ = std::move(built);
 }

@@ -57,8 +57,41 @@ constexpr float never = 1e30f;
 // Skips are biased by a few units in the last place of a height near 1: a node within that of the ray is opened.
 constexpr float skip_margin = 4e-7f;
 
-// Plain loops over the lanes, for the compiler to make vectors of: they are in double, of which a vector holds fewer.
-HWY_INLINE void set_axis(const float* uv, const float* uv_per_height, const float* way, float cells, LaneAxis& out) {
+// Where rays start along an axis, (uv + uv_per_height * way) * cells - 1/2, and how they go on, to more digits than a float has.
+#if HWY_NATIVE_FMA
+// Sums and products with their rounding errors (Knuth 1969, section 4.2.2; Dekker 1971): half the work of double, of which a vector
+// holds half as many.
+HWY_INLINE void set_axis(F uv, F uv_per_height, F way, int size, LaneAxis& out) {
+    const Floats d;
+    const Ints di;
+    const F cells = hn::Set(d, static_cast<float>(size)), zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    const F moved = hn::Mul(way, uv_per_height), moved_rest = hn::MulSub(way, uv_per_height, moved);
+    const F sum = hn::Add(uv, moved), back = hn::Sub(sum, uv);
+    const F sum_rest = hn::Add(hn::Add(hn::Sub(uv, hn::Sub(sum, back)), hn::Sub(moved, back)), moved_rest);
+    const F x = hn::Mul(sum, cells), x_rest = hn::MulAdd(sum_rest, cells, hn::MulSub(sum, cells, x));
+    // The cell from x alone may be one off, by the rest.
+    const F about = hn::Floor(hn::Sub(x, hn::Set(d, 0.5f)));
+    const F beyond = hn::Add(hn::Sub(hn::Sub(x, about), hn::Set(d, 0.5f)), x_rest), off = hn::Floor(beyond);
+    const F cell = hn::Add(about, off);
+    const F periods = hn::Floor(hn::Mul(cell, hn::Set(d, 1.0f / static_cast<float>(size))));
+    F in = hn::NegMulAdd(periods, cells, cell);
+    in = hn::Add(in, hn::IfThenElseZero(hn::Lt(in, zero), cells));
+    in = hn::Sub(in, hn::IfThenElseZero(hn::Ge(in, cells), cells));
+    // Clamped because of rounding; what is no number becomes one.
+    hn::Store(hn::ConvertTo(di, hn::Min(hn::Max(in, zero), hn::Sub(cells, one))), di, out.cell);
+    hn::Store(hn::Min(hn::Max(hn::Sub(beyond, off), zero), one), d, out.start);
+    const F slope = hn::Neg(uv_per_height), speed = hn::Mul(slope, cells), pace = hn::Abs(speed);
+    const FMask moves = hn::And(hn::Gt(pace, hn::Set(d, standstill)), hn::Lt(pace, hn::Set(d, never)));
+    hn::Store(hn::IfThenElseZero(moves, speed), d, out.speed);
+    hn::Store(hn::IfThenElseZero(moves, hn::MulSub(slope, cells, speed)), d, out.rest);
+    hn::Store(hn::IfThenElse(moves, hn::Div(one, speed), hn::Set(d, never)), d, out.inverse);
+}
+#else
+// Plain loops over the lanes, for the compiler to make vectors of.
+HWY_INLINE void set_axis(F uvs, F uvs_per_height, F ways, int cells, LaneAxis& out) {
+    const Floats d;
+    alignas(64) float uv[lane_count], uv_per_height[lane_count], way[lane_count];
+    hn::Store(uvs, d, uv), hn::Store(uvs_per_height, d, uv_per_height), hn::Store(ways, d, way);
     const double size = cells, periods = 1 / size;
     for (std::size_t k = 0; k < lane_count; ++k) {
         const double x = (uv[k] + static_cast<double>(way[k]) * uv_per_height[k]) * size - 0.5;
@@ -80,6 +113,7 @@ HWY_INLINE void set_axis(const float* uv, const float* uv_per_height, const floa
         out.inverse[k] = moves ? inverse : never;
     }
 }
+#endif
 
 // The rays as vectors: one per field of CastRay.
 struct RayVectors {
@@ -101,22 +135,20 @@ HWY_INLINE RayVectors load_rays(const CastRay* rays) {
 
 HWY_INLINE void set_up(const CastGrid& grid, const RayVectors& rays, Lanes& out) {
     const Floats d;
-    alignas(64) float u[lane_count], v[lane_count], du[lane_count], dv[lane_count], way[lane_count];
-    hn::Store(rays.u, d, u), hn::Store(rays.v, d, v), hn::Store(rays.du, d, du), hn::Store(rays.dv, d, dv);
-    hn::Store(hn::Sub(rays.z_start, rays.zero_level), d, way);
-    hn::Store(rays.z_start, d, out.z_start);
-    hn::Store(hn::Sub(rays.z_start, rays.z_end), d, out.descent_end);
-    set_axis(u, du, way, static_cast<float>(grid.width), out.x);
-    set_axis(v, dv, way, static_cast<float>(grid.height), out.y);
-    for (std::size_t k = 0; k < lane_count; ++k) {
-        const float from = std::fabs(u[k]) + std::fabs(v[k]) + std::fabs(way[k]), slope = std::fabs(du[k]) + std::fabs(dv[k]);
-        const float texels = (std::fabs(out.x.speed[k]) + std::fabs(out.y.speed[k])) * out.descent_end[k];
-        const bool valid = from < never && slope < never && texels <= longest_way_texels && out.descent_end[k] >= 0;
-        // What is no ray becomes one that is short and far above.
-        out.z_start[k] = valid ? out.z_start[k] : 2;
-        out.descent_end[k] = valid ? out.descent_end[k] : 0;
-        out.valid[k] = valid;
-    }
+    const Ints di;
+    const F way = hn::Sub(rays.z_start, rays.zero_level), descent = hn::Sub(rays.z_start, rays.z_end);
+    set_axis(rays.u, rays.du, way, grid.width, out.x);
+    set_axis(rays.v, rays.dv, way, grid.height, out.y);
+    const F from = hn::Add(hn::Add(hn::Abs(rays.u), hn::Abs(rays.v)), hn::Abs(way)),
+            slope = hn::Add(hn::Abs(rays.du), hn::Abs(rays.dv));
+    const F texels = hn::Mul(hn::Add(hn::Abs(hn::Load(d, out.x.speed)), hn::Abs(hn::Load(d, out.y.speed))), descent);
+    const F far = hn::Set(d, never);
+    const FMask valid = hn::And(hn::And(hn::Lt(from, far), hn::Lt(slope, far)),
+                                hn::And(hn::Le(texels, hn::Set(d, longest_way_texels)), hn::Ge(descent, hn::Zero(d))));
+    // What is no ray becomes one that is short and far above.
+    hn::Store(hn::IfThenElse(valid, rays.z_start, hn::Set(d, 2.0f)), d, out.z_start);
+    hn::Store(hn::IfThenElseZero(valid, descent), d, out.descent_end);
+    hn::Store(hn::IfThenElseZero(hn::RebindMask(di, valid), hn::Set(di, 1)), di, out.valid);
 }
 
 // Position in a cell, start + speed * descent - cell, whose terms may be a million times its value.
@@ -130,6 +162,12 @@ HWY_INLINE F precise_offset(F speed, F rest, F descent, F cell, F start) {
     for (std::size_t k = 0; k < lane_count; ++k) a[k] = static_cast<float>((static_cast<double>(a[k]) + b[k]) * c[k] - e[k] + f[k]);
     return hn::Load(d, a);
 #endif
+}
+
+template <class V, class M, class D, class T>
+HWY_INLINE std::size_t compress_to(V v, M mask, D d, T* to) {
+    hn::StoreU(hn::Compress(v, mask), d, to);
+    return hn::CountTrue(d, mask);
 }
 
 // Heights of nodes, gathered as aligned pairs: the address of `nodes` is a multiple of 4.

@@ -68,11 +68,12 @@ HWY_INLINE LaneHits walk_alone(const CastGrid& grid, const Lanes& lanes) {
             const I block = hn::Add(hn::Mul(hn::ShiftRight<block_level>(wrapped_y), hn::Set(di, grid.block_columns)),
                                     hn::ShiftRight<block_level>(wrapped_x));
             const I three = hn::Set(di, block_side - 1);
-            const I in_block = hn::Add(hn::ShiftLeft<block_level>(hn::And(wrapped_y, three)), hn::And(wrapped_x, three));
-            const I at = hn::IfThenElseZero(hn::RebindMask(di, waits), hn::Add(hn::ShiftLeft<6>(block), in_block));
+            const I in_block = hn::Add(hn::Mul(hn::And(wrapped_y, three), hn::Set(di, patch_pitch)), hn::And(wrapped_x, three));
+            const I at = hn::IfThenElseZero(hn::RebindMask(di, waits), hn::Add(hn::ShiftLeft<5>(block), in_block));
             const float* const patches = grid.patches;
-            const F h00 = hn::GatherIndex(d, patches + patch_height, at), b = hn::GatherIndex(d, patches + patch_slope_x, at);
-            const F c = hn::GatherIndex(d, patches + patch_slope_y, at), twist = hn::GatherIndex(d, patches + patch_twist, at);
+            const F h00 = hn::GatherIndex(d, patches, at), b = hn::Sub(hn::GatherIndex(d, patches + 1, at), h00);
+            const F h01 = hn::GatherIndex(d, patches + patch_pitch, at), c = hn::Sub(h01, h00);
+            const F twist = hn::Sub(hn::Sub(hn::GatherIndex(d, patches + patch_pitch + 1, at), h01), b);
             const F x =
                 precise_offset(speed_x, hn::Load(d, lanes.x.rest), descent, hn::ConvertTo(d, hn::Add(wrapped_x, base_x)), start_x);
             const F y =
