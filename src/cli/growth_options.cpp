@@ -17,7 +17,8 @@ void add_growth_options(CLI::App& verb, GrowthOptions& options) {
     verb.add_option("--gusts", options.gusts, "by which share of itself the wind swells and falls in an animation")->check(CLI::Range(0.0, 1.0))->capture_default_str();
     verb.add_option("--animate", options.frames, "so many frames of 1/25 s, as FILE_0000.png and on beside --out FILE.png: the wind sets in, the fur swings")->check(CLI::Range(1, 9999));
     verb.add_option("--spin", options.spin, "turns a second of the mesh around its vertical axis in an animation")->check(CLI::Range(-20.0, 20.0));
-    verb.add_option("--export", options.exported, "FILE.hair, FILE.obj or FILE.ply: the strands as curves, in the mesh's own space and units; may be repeated")->take_all();
+    verb.add_option("--export", options.exported, "FILE.hair, FILE.obj or FILE.ply: the strands as curves; FILE.glb: layers with a texture (--layers; auto: 12 to 32). In the mesh's own space and units; may be repeated")->take_all();
+    verb.add_option("--atlas", options.atlas, "texels a side of a .glb's texture (2048, or 4096 where strands are thin)")->check(CLI::Range(64, 16384));
     verb.add_option("--pieces", options.pieces, "straight pieces of each exported strand")->check(CLI::Range(1, 1024))->capture_default_str();
 }
 
@@ -57,9 +58,14 @@ std::string length_rule_list() {
 }
 
 void export_as_asked(const std::string& mesh, const GrowthOptions& options, const FurSettings& fur, bool quiet) {
-    const FurExport e = export_fur(mesh, options.exported, {.coat = fur.coat, .lengths = fur.lengths, .forces = fur.forces, .pieces = options.pieces, .threads = fur.threads}, progress_display(quiet));
+    const FurExport e = export_fur(mesh, options.exported, {.coat = fur.coat, .lengths = fur.lengths, .forces = fur.forces, .pieces = options.pieces, .layers = fur.layers, .atlas = options.atlas, .threads = fur.threads}, progress_display(quiet));
     if (quiet) return;
-    for (const std::string& file : options.exported) std::fprintf(stderr, "%s: %zu strands of %zu points\n", file.c_str(), e.strands, e.points);
+    for (const std::string& file : options.exported)
+        if (std::filesystem::path(file).extension() == ".glb")
+            std::fprintf(stderr, "%s: %zu layers\n", file.c_str(), e.layers);
+        else
+            std::fprintf(stderr, "%s: %zu strands of %zu points\n", file.c_str(), e.strands, e.points);
+    for (const std::string& note : e.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
 }
 
 }  // namespace relievo

@@ -15,7 +15,7 @@ namespace relievo {
 struct GrowthOptions {
     std::vector<std::string> where;     // rules of length
     std::vector<std::string> exported;  // files
-    int pieces = 8;
+    int pieces = 8, atlas = 0;
     double gravity = 0, gusts = 0.6, spin = 0;
     std::vector<double> wind;
     int frames = 0;

@@ -2,6 +2,7 @@
 #include "cli/program.h"
 
 #include "assets/image_file.h"
+#include "assets/mesh_file.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -181,6 +182,21 @@ TEST(Fur, ExportsItsStrandsWhereTheMeshIs) {
         EXPECT_LT(way, 0.25);
     }
     EXPECT_EQ(std::filesystem::file_size(std::filesystem::path(folder / "strands.hair")), 128 + strands * 2 + points.size() * 28);
+}
+
+TEST(Fur, ExportsLayersThatComeBack) {
+    const Folder folder;
+    const std::string out = folder / "layers.glb";
+    const Ended ended = run({"fur", tetrahedron_in(folder), "--quiet", "--density", "0.5", "--layers", "5", "--atlas", "256", "--export", out});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const Mesh mesh = load_mesh(out);
+    EXPECT_EQ(mesh.faces(), 4u * 6);
+    double farthest = 0;
+    for (const Vec3f& p : mesh.positions) farthest = std::max(farthest, length(Vec3d(p) - Vec3d(100, 0, 0)));
+    // Beyond the corners, which are at the square root of 3, by less than the fur is long.
+    EXPECT_GT(farthest, std::sqrt(3.0) * 1.02);
+    EXPECT_LT(farthest, std::sqrt(3.0) * 1.15);
+    EXPECT_EQ(run({"fur", tetrahedron_in(folder), "--export", folder / "a.abc"}).code, 1);
 }
 
 TEST(Fur, GrowsWhereRulesSay) {
