@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -67,6 +68,11 @@ Json fur_json(const FurPicture& p, const std::string& preset, const std::string&
         const FurStages& f = p.stages[i];
         report["stages_ms"][i == 0 ? "first" : "last"] = {{"light", rounded(f.light)}, {"skin", rounded(f.skin)}, {"grow", rounded(f.grow)}, {"plot", rounded(f.plot)}, {"shade", rounded(f.shade)}, {"copy", rounded(f.copy)}};
     }
+    if (p.steadiness)
+        report["turntable"] = {{"change", rounded(p.steadiness->change)},
+                               {"reference_change", rounded(p.steadiness->reference_change)},
+                               {"error_change", rounded(p.steadiness->error_change)},
+                               {"worst_over_median", rounded(p.steadiness->worst_over_median)}};
     if (p.light) report["light"] = classic_report(p);
     std::string_view mode;
     for (const FurMode& m : fur_modes)
@@ -180,8 +186,15 @@ void add_fur_command(CLI::App& app) {
         if (!o->reference.empty()) s.reference_samples = o->samples;
         s.lengths = length_rules_of(o->growth);
         take_motion(o->growth, o->out, s);
-        if (o->mode != "strands" && (!s.lengths.empty() || length(s.forces.gravity) > 0 || length(s.forces.wind) > 0 || s.film.frames > 0))
-            throw UsageError("--grow-where, --gravity, --wind and --animate are for strands, not for --mode " + o->mode);
+        std::string words = o->in + ' ' + o->mode + ' ' + std::string(preset.id) + " layers " + o->layers + " size " + std::to_string(s.width) + ' ' + std::to_string(s.height) + " passes " + std::to_string(s.passes);
+        for (const CoatKnob& k : coat_knobs()) words += ' ' + std::string(k.id) + ' ' + std::to_string(s.coat.*k.member);
+        for (const std::string& rule : o->growth.where) words += ' ' + rule;
+        for (const double force : {s.forces.gravity.y, s.forces.wind.x, s.forces.wind.y, s.forces.wind.z}) words += ' ' + std::to_string(force);
+        std::error_code none;
+        if (const auto bytes = std::filesystem::file_size(o->in, none); !none) words += " bytes " + std::to_string(bytes);
+        take_turntable(o->growth, o->out, words, s);
+        if ((classic || lapped) && (!s.lengths.empty() || length(s.forces.gravity) > 0 || length(s.forces.wind) > 0 || s.film.frames > 0 || s.turntable.frames > 0))
+            throw UsageError("--grow-where, --gravity, --wind, --animate and --turntable are for strands, not for --mode " + o->mode);
         if (!o->growth.exported.empty()) {
             if (o->mode != "strands") throw UsageError("--export writes strands, which --mode " + o->mode + " has none of");
             export_as_asked(o->in, o->growth, s, o->quiet);

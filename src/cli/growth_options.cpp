@@ -7,6 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 namespace relievo {
 
@@ -17,6 +19,8 @@ void add_growth_options(CLI::App& verb, GrowthOptions& options) {
     verb.add_option("--gusts", options.gusts, "by which share of itself the wind swells and falls in an animation")->check(CLI::Range(0.0, 1.0))->capture_default_str();
     verb.add_option("--animate", options.frames, "so many frames of 1/25 s, as FILE_0000.png and on beside --out FILE.png: the wind sets in, the fur swings")->check(CLI::Range(1, 9999));
     verb.add_option("--spin", options.spin, "turns a second of the mesh around its vertical axis in an animation")->check(CLI::Range(-20.0, 20.0));
+    verb.add_option("--turntable", options.turntable, "so many frames around the mesh, as FILE_0000.png and on beside --out FILE.png; begun again with the same words, it goes on. With --reference, --json says how steady they are")->check(CLI::Range(1, 9999));
+    verb.add_option("--turn", options.turn, "degrees that the turntable turns in all")->check(CLI::Range(-36000.0, 36000.0))->capture_default_str();
     verb.add_option("--export", options.exported, "FILE.hair, FILE.obj or FILE.ply: the strands as curves; FILE.glb: layers with a texture (--layers; auto: 12 to 32). In the mesh's own space and units; may be repeated")->take_all();
     verb.add_option("--atlas", options.atlas, "texels a side of a .glb's texture (2048, or 4096 where strands are thin)")->check(CLI::Range(64, 16384));
     verb.add_option("--pieces", options.pieces, "straight pieces of each exported strand")->check(CLI::Range(1, 1024))->capture_default_str();
@@ -26,6 +30,39 @@ std::vector<LengthRule> length_rules_of(const GrowthOptions& options) {
     std::vector<LengthRule> rules;
     for (const std::string& text : options.where) rules.push_back(length_rule(text));
     return rules;
+}
+
+namespace {
+
+std::filesystem::path numbered(const std::filesystem::path& path, int frame) {
+    char number[16];
+    std::snprintf(number, sizeof number, "_%04d", frame);
+    return path.parent_path() / (path.stem().string() + number + path.extension().string());
+}
+
+}  // namespace
+
+void take_turntable(const GrowthOptions& options, const std::string& out, const std::string& words, FurSettings& settings) {
+    if (options.turntable == 0) return;
+    if (options.frames > 0) throw UsageError("--turntable and --animate number their frames alike: take one of them");
+    if (out.empty() && settings.reference_samples == 0) throw UsageError("--turntable needs --out FILE.png, beside which its frames go, or --reference to measure how steady they are");
+    settings.turntable.frames = options.turntable;
+    settings.turntable.degrees = options.turn;
+    if (out.empty()) return;
+    const std::filesystem::path path(out), note = path.parent_path() / (path.stem().string() + "_turntable.txt");
+    const std::string text = words + "\nturntable " + std::to_string(options.turntable) + " turn " + std::to_string(options.turn) + "\n";
+    // Frames are kept where the note beside them says that they are of the same words.
+    std::string noted;
+    if (std::ifstream in(note, std::ios::binary); in) noted.assign(std::istreambuf_iterator<char>(in), {});
+    const bool goes_on = noted == text;
+    if (!goes_on) {
+        for (int frame = 0; frame < options.turntable; ++frame) std::filesystem::remove(numbered(path, frame));
+        std::ofstream file(note, std::ios::binary);
+        file << text;
+        if (!file.flush()) throw Error("write", note.string(), "it cannot be written", "name a folder that exists and may be written to (--out)");
+    }
+    settings.turntable.wanted = [path](int frame) { return !std::filesystem::exists(numbered(path, frame)); };
+    settings.turntable.shown = [path](int frame, const Image8& picture) { write_fur_picture(numbered(path, frame), picture); };
 }
 
 void take_motion(const GrowthOptions& options, const std::string& out, FurSettings& settings) {
@@ -41,9 +78,7 @@ void take_motion(const GrowthOptions& options, const std::string& out, FurSettin
     settings.film.frames = options.frames;
     settings.film.turns_per_second = options.spin;
     settings.film.shown = [path = std::filesystem::path(out)](int frame, const Image8& picture) {
-        char number[16];
-        std::snprintf(number, sizeof number, "_%04d", frame);
-        write_fur_picture(path.parent_path() / (path.stem().string() + number + path.extension().string()), picture);
+        write_fur_picture(numbered(path, frame), picture);
     };
 }
 

@@ -72,16 +72,19 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
         frames = painter->draw(view);
         result.picture = shown_fur(frames);
     }
+    StrandCurves curves;
     if (settings.reference_samples > 0) {
         // On the mesh itself: what its simplification changes counts as an error of the layers.
         const Timer tracing;
-        const StrandCurves curves = curves_of(fur, settings.coat, 8, settings.forces, settings.threads);
+        curves = curves_of(fur, settings.coat, 8, settings.forces, settings.threads);
         const FurFrames reference = trace_fur(curves, grown, settings.coat, view, settings.reference_samples, settings.threads, progress, fur.lengths);
         result.score = fur_score(frames, reference, settings.threads);
         result.score->reference_ms = tracing.ms();
         result.score->samples = settings.reference_samples;
         result.beside = side_by_side(result.picture, shown_fur(reference));
     }
+    if (settings.turntable.frames > 0)
+        result.steadiness = turn_fur(*painter, fur, settings.coat, view, settings.turntable, settings.reference_samples > 0 ? &curves : nullptr, settings.reference_samples, settings.threads, progress);
     if (settings.film.frames > 0) {
         report(progress, "filming", 0.7);
         film_fur(*painter, view, settings.forces, settings.film, settings.threads);

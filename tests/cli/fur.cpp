@@ -224,6 +224,44 @@ TEST(Fur, GrowsWhereRulesSay) {
     EXPECT_NE(missing.err.find("none.png"), std::string::npos) << missing.err;
 }
 
+TEST(Fur, TurnsOnATableAndGoesOnWhereItStopped) {
+    if (!has_device()) GTEST_SKIP() << "no Vulkan device";
+    const Folder folder;
+    const std::string mesh = tetrahedron_in(folder), out = folder / "turn.png", second = folder / "turn_0001.png";
+    const std::vector<std::string> words = {"--turntable", "3", "--out", out};
+    ASSERT_EQ(run(quick(mesh, words)).code, 0);
+    const std::string first = read_text(folder / "turn_0000.png"), other = read_text(second), third = read_text(folder / "turn_0002.png");
+    EXPECT_EQ(first, read_text(out));
+    EXPECT_NE(first, other);
+    EXPECT_NE(other, third);
+    EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(folder / "turn_0003.png")));
+    // Begun again it draws what is missing and leaves the rest alone, even where that is not what it would draw.
+    std::filesystem::remove(second);
+    written(folder, "turn_0002.png", "kept");
+    ASSERT_EQ(run(quick(mesh, words)).code, 0);
+    EXPECT_EQ(read_text(second), other);
+    EXPECT_EQ(read_text(folder / "turn_0002.png"), "kept");
+    // Of another coat all is drawn anew.
+    ASSERT_EQ(run(quick(mesh, {"--turntable", "3", "--set", "tilt=0", "--out", out})).code, 0);
+    EXPECT_NE(read_text(second), other);
+    EXPECT_NE(read_text(folder / "turn_0002.png"), "kept");
+    // Compared, a hundredth of a turn changes less than a third of one, and the traced strands change alike.
+    const auto steadiness = [&](const char* degrees) {
+        const Ended ended = run(quick(mesh, {"--turntable", "3", "--turn", degrees, "--samples", "4", "--reference", folder / "beside.png", "--json"}));
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        return Json::parse(ended.out, nullptr, false)["report"]["turntable"];
+    };
+    const Json slow = steadiness("10.8"), quickly = steadiness("360");
+    EXPECT_GT(slow["change"].get<double>(), 0);
+    EXPECT_LT(slow["reference_change"].get<double>(), quickly["reference_change"].get<double>());
+    EXPECT_LT(slow["change"].get<double>(), quickly["change"].get<double>());
+    EXPECT_LE(quickly["error_change"].get<double>(), quickly["change"].get<double>() + quickly["reference_change"].get<double>() + 1e-3);
+    EXPECT_GT(quickly["error_change"].get<double>(), 0);
+    EXPECT_GE(slow["worst_over_median"].get<double>(), 1);
+    EXPECT_EQ(run(quick(mesh, {"--turntable", "3", "--json"})).code, 2);
+    EXPECT_EQ(run(quick(mesh, {"--turntable", "3", "--animate", "3", "--out", out})).code, 2);
+}
+
 TEST(Fur, WindMovesIt) {
     if (!has_device()) GTEST_SKIP() << "no Vulkan device";
     const Folder folder;
