@@ -208,13 +208,16 @@ std::string fur_replication_page(const FurReplication& r, const std::string& com
     return "# Fur of 2009, run again\n\n"
            "B. Evangelista (*Renderização em tempo real de pelos aplicados sobre malhas tridimensionais arbitrárias obtidas de objetos reais*, UFMG 2009)\n"
            "drew six meshes in eight configurations: 8 or 16 layers, fur 2 or 5 % of the radius of the smallest sphere high, strands on 10 or 20 % of the texels of\n"
-           "cube maps of 256 x 256. His frame rates (table 7.7) are those of a GeForce 8600GT; his pictures were judged by eye. Here the same configurations\n"
+           "cube maps of 256 x 256. His frame rates (table 7.7) are those of a GeForce 8600GT at 1280 x 800; his pictures were judged by eye. Here the same configurations\n"
            "run with [his method](concepts/fur_classic.md) and with [strands in object space](concepts/fur.md), and both are measured.\n\n"
            "**The reference** is what his maps stand for, as curves: as many strands as the map has, evenly over the surface, upright, of the height asked for and\n"
            "so thick that they fill the share of the skin that the density says (widened by a fifth for the pointed tips that our strands have and his have not).\n"
            "They are ray traced with shadows on the mesh itself. The same strands, root by root, are what mode strands draws; mode classic has its own, where its map\n"
            "puts them, as no even ones can be had of it. Light is not the map's fault: the ambient, diffuse and specular parts of the classic layers are fitted to\n"
            "each reference by least squares, which is the most that three numbers can do, while strands keep their light as it is. Both draw at one sample a pixel;\n"
+           "Classic layers are drawn on the scan's own faces, as in the thesis, lapped ones on a simplified mesh; strands are plotted one by one, and of the mesh only the skin is\n"
+           "drawn: on scans most of the difference in speed lies there, on the cube and the torus none of it. What stands under *layers* for strands is the number of\n"
+           "straight pieces of each.\n"
            "FLIP is that of one frame, and coverage is the mean difference of coverage, after averaging, where either picture has any, which no light touches.\n\n"
            "**Meshes**: of each object the nearest of at least as many faces as published, simplified to that many, or the largest there is. " +
            std::string(r.stand_ins ? "No folder of meshes was given: made-up scans of the published sizes stand in for the four scans.\n\n" : "\n\n") +
