@@ -19,7 +19,9 @@ constexpr float cell_width = 1.25f;
 
 std::uint32_t strand_chance(Vec3f root) {
     const auto word = [](float v) { return std::bit_cast<std::uint32_t>(v); };
-    std::uint32_t h = word(root.x) * 0x9e3779b1u ^ word(root.y) * 0x85ebca77u ^ word(root.z) * 0xc2b2ae3du;
+    // Turned against each other: the signs of two coordinates are the top bits of their products and would cancel out, so that
+    // places half a turn apart around an axis had one chance.
+    std::uint32_t h = word(root.x) * 0x9e3779b1u ^ std::rotl(word(root.y) * 0x85ebca77u, 11) ^ std::rotl(word(root.z) * 0xc2b2ae3du, 21);
     h = (h ^ (h >> 16)) * 0x85ebca6bu;  // the finaliser of MurmurHash3
     h = (h ^ (h >> 13)) * 0xc2b2ae35u;
     return (h ^ (h >> 16)) >> 16;

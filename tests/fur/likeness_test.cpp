@@ -34,6 +34,22 @@ TEST(Likeness, EveryStrandIsItsOwn) {
     EXPECT_EQ(likeness(roots, chances, 1), likeness(roots, chances, 3));
 }
 
+TEST(Likeness, SymmetricPartsDoNotRepeat) {
+    // A machine part: two squares half a turn apart around y, with the same roots.
+    Mesh mesh;
+    mesh.positions = {{1, 0, 1}, {1, 0, 2}, {2, 0, 2}, {2, 0, 1}, {-1, 0, -1}, {-1, 0, -2}, {-2, 0, -2}, {-2, 0, -1}};
+    mesh.indices = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
+    Mesh first = mesh;
+    first.indices.resize(6);
+    Roots roots = grow_roots(first, {.count = 4000});
+    for (std::size_t i = 0, half = roots.roots.size(); i < half; ++i) {
+        const Root r = roots.roots[i];
+        roots.roots.push_back({{-r.position.x, r.position.y, -r.position.z}, r.face + 2});
+    }
+    roots.area *= 2;
+    EXPECT_EQ(shared(mesh, roots, chances_of(roots)), 0);
+}
+
 TEST(Likeness, FurThatRepeatsItselfIsFound) {
     // Two squares far apart, the second with the roots of the first, moved: a texture laid on twice.
     Mesh mesh;
