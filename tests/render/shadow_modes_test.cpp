@@ -117,6 +117,31 @@ TEST_F(ShadowModes, penumbraGrowsWithTheLight) {
     }
 }
 
+// Fewer steps leave hits deeper below the field, which must not read as shadow: of the ground that is lit, as little turns dark as with all
+// steps, and some more where walls are met late.
+TEST_F(ShadowModes, fewerStepsDoNotShadeThemselves) {
+    const Technique& exact = *find_technique("max_mip_tracing");
+    const Technique& linear = *find_technique("linear_search");
+    const auto drawn = [&](const Technique& technique, int steps) {
+        DrawOptions options = with(glsl::shadow_hard);
+        options.steps = steps;
+        return renderer->draw(stage_at(60), *material, technique, default_params(technique), {.width = width, .height = height, .options = options});
+    };
+    const Frame truth = drawn(exact, glsl::steps_fixed);
+    const auto darkened = [&](int steps) {
+        const Frame f = drawn(linear, steps);
+        int lit = 0, dark = 0;
+        for (std::size_t i = 0; i < f.shadow.texels.size(); ++i) {
+            if (f.coverage.texels[i] != 1 || truth.shadow.texels[i] < 1) continue;
+            ++lit;
+            dark += f.shadow.texels[i] < 1;
+        }
+        return static_cast<double>(dark) / lit;
+    };
+    const double with_all = darkened(glsl::steps_fixed);
+    for (const int steps : {glsl::steps_cosine, glsl::steps_texel}) EXPECT_LT(darkened(steps), with_all + 0.03) << steps;
+}
+
 // Beyond the border nothing casts a shadow, whichever way the shadow is found: where the relief without end would shade a point and the
 // one that ends does not, it is lit.
 TEST_F(ShadowModes, endWithTheRelief) {
