@@ -67,6 +67,13 @@ void write_fur_figures(const std::filesystem::path& folder, const std::string& d
     const FurPicture patches = lapped_picture(torus, {.coat = coat, .fit_light = true, .width = 360, .height = 300, .device = device, .reference_samples = 1, .threads = threads});
     const FurPicture strands = fur_picture(torus, {.coat = coat, .width = 360, .height = 300, .device = device, .threads = threads});
     write_png(folder / "fur-modes.png", row_of({by_direction.picture, patches.picture, strands.picture, reference_of(by_direction.beside)}), FirstRow::top);
+
+    // The same strands in shells, plotted and traced.
+    FurSettings rabbit{.mode = FurKind::shells, .width = 420, .height = 400, .device = device, .threads = threads};
+    const FurPicture shells = fur_picture(scan, rabbit);
+    rabbit.mode = FurKind::strands;
+    rabbit.reference_samples = 16;
+    write_png(folder / "fur-plotted.png", side_by_side(shells.picture, fur_picture(scan, rabbit).beside), FirstRow::top);
 }
 
 }  // namespace relievo

@@ -7,7 +7,7 @@
 namespace relievo {
 
 // fur-addressing.png: the three addressings; fur-maps.png: cubes of two sizes and a disc; fur-modes.png: every mode and the traced
-// strands. Throws Error.
+// strands; fur-plotted.png: strands in shells, plotted and traced. Throws Error.
 void write_fur_figures(const std::filesystem::path& folder, const std::string& device, int threads);
 
 }  // namespace relievo
