@@ -22,7 +22,7 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line) {
     };
     auto o = std::make_shared<Options>();
     o->settings.command = command_line.text;
-    auto* verb = app.add_subcommand("compare", "Scores techniques on materials and views against exact ground truth and writes a report");
+    auto* verb = app.add_subcommand("compare", "Scores techniques on materials and views against exact ground truth and writes a report; with fur: ways of growing it");
     verb->add_option("--material", o->materials, "folder with maps, or a procedural material's id; may be repeated (default: the procedural set)");
     verb->add_option("--technique", o->techniques, "ids, comma-separated or repeated (default: all)");
     verb->add_option("--view", o->views, "grazing, middle, steep or degrees above the plane, and @2 for twice as far away; may be repeated (default: the three)");
@@ -41,13 +41,16 @@ void add_compare_command(CLI::App& app, const CommandLine& command_line) {
     verb->add_flag("--validation", o->settings.validation, "run with the Vulkan validation layers; their messages are an error");
     verb->add_flag("--quiet", o->quiet, "no progress");
     verb->add_flag("--json", o->json, "print the results as JSON on standard output as well");
-    verb->add_option("--out", o->settings.out, "folder for index.html, results.json, results.csv and the pictures")->required();
+    verb->add_option("--out", o->settings.out, "folder for index.html, results.json, results.csv and the pictures (required)");
     verb->footer("Examples:\n  relievo compare --out report\n"
                  "  relievo compare --material wall --material floor --technique relief_mapping,cone_step_mapping --view 20 --out report\n"
                  "  relievo compare --material cobbles --size 1280x720 --runs 31 --out report\n"
                  "  relievo compare --material cobbles --sweep --out report");
-    verb->callback([o] {
+    add_compare_fur_command(*verb, command_line);
+    verb->callback([o, verb] {
+        if (!verb->get_subcommands().empty()) return;  // another comparison
         CompareSettings& s = o->settings;
+        if (s.out.empty()) throw UsageError("compare needs --out FOLDER for its report");
         const Size size = parse_size(o->size);
         s.width = size.width;
         s.height = size.height;

@@ -17,6 +17,7 @@ struct CommandLine {
 void add_list_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_compare_command(CLI::App& app, const CommandLine& command_line);
+void add_compare_fur_command(CLI::App& compare, const CommandLine& command_line);  // a subcommand of compare
 void add_explain_command(CLI::App& app);
 void add_effects_command(CLI::App& app);
 void add_replicate_command(CLI::App& app, const CommandLine& command_line);
