@@ -1,5 +1,7 @@
 #include "report/fur_comparison.h"
 
+#include "report/escaped.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -36,19 +38,6 @@ std::string printed(double value, int digits) {
     return text;
 }
 std::string shown(const FurRow& row, const Column& c) { return printed(row.*c.value * c.times, c.digits); }
-
-std::string html(const std::string& text) {
-    std::string safe;
-    for (const char c : text) safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
-    return safe;
-}
-
-std::string csv(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + '"';
-}
 
 // The best of each column among rows of one mesh and coat: all of them are better small.
 bool best(const std::vector<FurRow>& rows, std::size_t first, std::size_t end, std::size_t at, const Column& c) {
@@ -87,7 +76,7 @@ std::string fur_comparison_csv(const FurComparison& f) {
     }
     text += "\n";
     for (const FurRow& r : f.rows) {
-        text += csv(r.mesh) + "," + r.preset + "," + r.mode + "," + std::to_string(r.faces) + "," + std::to_string(r.strands) + "," + std::to_string(r.layers);
+        text += csv_text(r.mesh) + "," + r.preset + "," + r.mode + "," + std::to_string(r.faces) + "," + std::to_string(r.strands) + "," + std::to_string(r.layers);
         for (const Column& c : columns) {
             text += ',';
             if (std::isfinite(r.*c.value)) text += printed(r.*c.value, 6);
@@ -128,30 +117,30 @@ std::string fur_comparison_page(const FurComparison& f) {
         ".scroll{overflow-x:auto}.row{display:grid;grid-template-columns:repeat(auto-fill,minmax(20rem,1fr));gap:.6rem;margin-bottom:2.5rem}figure{margin:0}img{width:100%;display:block}"
         "figcaption{font-size:.9em;opacity:.8}</style><h1>Ways of growing fur</h1><p>Each picture is scored against the coat's own strands as curves, ray traced with " +
         std::to_string(f.samples) + " rays a pixel. The light of the textured layers is fitted to such a picture first, as it is not their maps' fault; that of strands is what it is. Drawn at " +
-        std::to_string(f.width) + " x " + std::to_string(f.height) + ", " + std::to_string(f.passes) + " passes averaged, by " + html(f.device) + ". Bold: the best of the table.</p><ul>";
+        std::to_string(f.width) + " x " + std::to_string(f.height) + ", " + std::to_string(f.passes) + " passes averaged, by " + html_text(f.device) + ". Bold: the best of the table.</p><ul>";
     for (const Column& c : columns) page += std::string("<li><b>") + c.title + "</b>: " + c.help + "</li>";
     page += "</ul>\n";
     for (std::size_t first = 0; first < f.rows.size();) {
         const std::size_t end = end_of_group(f.rows, first);
         const FurRow& head = f.rows[first];
-        page += "<h2>" + html(head.mesh) + ", " + html(head.preset) + "</h2><div class=scroll><table><thead><tr><th>mode</th><th>faces</th><th>strands</th><th>layers</th>";
+        page += "<h2>" + html_text(head.mesh) + ", " + html_text(head.preset) + "</h2><div class=scroll><table><thead><tr><th>mode</th><th>faces</th><th>strands</th><th>layers</th>";
         for (const Column& c : columns) page += std::string("<th>") + c.title + "</th>";
         page += "</tr></thead><tbody>";
         for (std::size_t i = first; i < end; ++i) {
             const FurRow& r = f.rows[i];
-            page += "<tr><th>" + html(r.mode) + "</th><td>" + std::to_string(r.faces) + "</td><td>" + std::to_string(r.strands) + "</td><td>" + std::to_string(r.layers) + "</td>";
+            page += "<tr><th>" + html_text(r.mode) + "</th><td>" + std::to_string(r.faces) + "</td><td>" + std::to_string(r.strands) + "</td><td>" + std::to_string(r.layers) + "</td>";
             for (const Column& c : columns) page += (best(f.rows, first, end, i, c) ? "<td class=best>" : "<td>") + shown(r, c) + "</td>";
             page += "</tr>";
         }
         page += "</tbody></table></div><div class=row>";
-        for (std::size_t i = first; i < end; ++i) page += "<figure><img loading=lazy src=\"" + html(f.rows[i].picture) + "\" alt=\"" + html(f.rows[i].mode) + "\"><figcaption>" + html(f.rows[i].mode) + "</figcaption></figure>";
-        page += "<figure><img loading=lazy src=\"" + html(head.reference) + "\" alt=\"traced strands\"><figcaption>traced strands</figcaption></figure></div>\n";
+        for (std::size_t i = first; i < end; ++i) page += "<figure><img loading=lazy src=\"" + html_text(f.rows[i].picture) + "\" alt=\"" + html_text(f.rows[i].mode) + "\"><figcaption>" + html_text(f.rows[i].mode) + "</figcaption></figure>";
+        page += "<figure><img loading=lazy src=\"" + html_text(head.reference) + "\" alt=\"traced strands\"><figcaption>traced strands</figcaption></figure></div>\n";
         first = end;
     }
     if (!f.refused.empty()) page += "<h2>No fur grows on</h2><ul>";
-    for (const std::string& reason : f.refused) page += "<li>" + html(reason) + "</li>";
+    for (const std::string& reason : f.refused) page += "<li>" + html_text(reason) + "</li>";
     if (!f.refused.empty()) page += "</ul>\n";
-    return page + "<p>relievo " + html(f.version) + ": <code>" + html(f.command) + "</code></p></html>\n";
+    return page + "<p>relievo " + html_text(f.version) + ": <code>" + html_text(f.command) + "</code></p></html>\n";
 }
 
 }  // namespace relievo

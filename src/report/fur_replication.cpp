@@ -1,6 +1,7 @@
 #include "report/fur_replication.h"
 
 #include "core/error.h"
+#include "report/escaped.h"
 
 #include <algorithm>
 #include <array>
@@ -186,9 +187,7 @@ std::string fur_replication_csv(const FurReplication& r) {
     for (const FurUnit& u : r.units)
         for (const FurTrial& t : u.trials) {
             const auto there = t.mode == "classic" ? published_fur_fps(u.mesh, t.layers, u.height_percent) : std::nullopt;
-            std::string from = u.from;
-            std::ranges::replace(from, ',', ';');
-            text += u.mesh + "," + from + "," + std::to_string(u.faces) + "," + std::to_string(u.published_faces) + "," + fixed(u.height_percent, 0) + "," + fixed(u.density_percent, 0) + "," +
+            text += u.mesh + "," + csv_text(u.from) + "," + std::to_string(u.faces) + "," + std::to_string(u.published_faces) + "," + fixed(u.height_percent, 0) + "," + fixed(u.density_percent, 0) + "," +
                     std::to_string(u.strands) + "," + t.mode + "," + std::to_string(t.layers) + "," + (t.chosen ? "1" : "0") + "," + fixed(t.ms, 3) + "," + (there ? fixed(*there, 0) : "") + "," +
                     fixed(t.frame_flip, 5) + "," + fixed(t.flip, 5) + "," + fixed(t.coverage_error, 5) + "," + fixed(t.gaps, 5) + "\n";
         }

@@ -1,6 +1,7 @@
 #include "report/mesh_table.h"
 
 #include "core/error.h"
+#include "report/escaped.h"
 
 #include <cstdio>
 #include <functional>
@@ -67,17 +68,7 @@ std::string printed(const char* format, double value) {
 std::string csv_field(const Json& value) {
     if (value.is_null()) return {};
     if (!value.is_string()) return value.is_number_float() ? printed("%.9g", value.get<double>()) : value.dump();
-    const auto text = value.get<std::string>();
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + '"';
-}
-
-std::string html(std::string_view text) {
-    std::string safe;
-    for (const char c : text) safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
-    return safe;
+    return csv_text(value.get<std::string>());
 }
 
 std::string seconds(double ms) { return printed("%.4f", ms / 1000); }
@@ -125,7 +116,7 @@ void pair_table(std::string& page, const char* title, const std::vector<std::vec
     page += "</tr></thead><tbody>";
     for (const auto& rows : meshes) {
         const PublishedMesh* p = published_mesh(rows.front()->faces);
-        page += "<tr><th>" + html(rows.front()->file) + (p ? " <i>" + html(p->name) + " " + std::to_string(p->level) + "</i>" : std::string()) + "</th>";
+        page += "<tr><th>" + html_text(rows.front()->file) + (p ? " <i>" + html_text(p->name) + " " + std::to_string(p->level) + "</i>" : std::string()) + "</th>";
         for (const PairColumn& c : columns) {
             cell(page, c.ours(rows));
             if (c.theirs) page += "<td class=old>" + (p ? c.theirs(*p) : std::string()) + "</td>";
@@ -182,8 +173,8 @@ std::string mesh_table_page(const MeshTable& table) {
         "body{font:15px/1.45 system-ui,sans-serif;margin:2rem;color:#222}table{border-collapse:collapse;margin:0 0 2rem}"
         "th,td{padding:.2rem .7rem;text-align:right;border-bottom:1px solid #ddd;white-space:nowrap}tbody th{text-align:left;font-weight:500}"
         "thead th{position:sticky;top:0;background:#fff}i{color:#777;font-size:.85em}.old{color:#777}.scroll{overflow-x:auto}</style>"
-        "<h1>Meshes prepared for drawing</h1><p>relievo " + html(table.version) + ", " + html(table.date) + ", " + std::to_string(table.threads) + " threads" +
-        (table.device.empty() ? std::string() : ", drawn by " + html(table.device)) +
+        "<h1>Meshes prepared for drawing</h1><p>relievo " + html_text(table.version) + ", " + html_text(table.date) + ", " + std::to_string(table.threads) + " threads" +
+        (table.device.empty() ? std::string() : ", drawn by " + html_text(table.device)) +
         ". Grey: what the 2009 thesis published of the same mesh, by its number of faces (two cores of 2.1 GHz, GeForce 8600 GT).</p>\n";
     const auto first = [](const std::function<std::string(const MeshRow&)>& field) { return Ours([=](const auto& rows) { return field(*rows.front()); }); };
 
@@ -232,14 +223,14 @@ std::string mesh_table_page(const MeshTable& table) {
         page += "<tr>";
         each_field(row, [&](const char*, const auto& value) {
             const Json json = json_of(value);
-            cell(page, json.is_number_float() ? printed("%.4g", json.get<double>()) : html(csv_field(json)));
+            cell(page, json.is_number_float() ? printed("%.4g", json.get<double>()) : html_text(csv_field(json)));
         });
         page += "</tr>\n";
     }
     page += "</tbody></table></div>";
     if (!table.skipped.empty()) {
         page += "<h2>Left out</h2><ul>";
-        for (const std::string& s : table.skipped) page += "<li>" + html(s) + "</li>";
+        for (const std::string& s : table.skipped) page += "<li>" + html_text(s) + "</li>";
         page += "</ul>";
     }
     return page + "</html>\n";

@@ -1,5 +1,6 @@
 #include "report/page.h"
 
+#include "report/escaped.h"
 #include "report/measurement_fields.h"
 #include "report/page_parts.h"
 #include "report/technique_text.h"
@@ -139,20 +140,6 @@ struct PageData {
         return json;
     }
 };
-
-std::string html_text(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&': out += "&amp;"; break;
-            case '<': out += "&lt;"; break;
-            case '>': out += "&gt;"; break;
-            case '"': out += "&quot;"; break;
-            default: out += c;
-        }
-    }
-    return out;
-}
 
 // Inside a script element a text must not spell the end of the element, nor open a comment.
 std::string script_text(std::string json) {

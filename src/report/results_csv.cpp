@@ -1,3 +1,4 @@
+#include "report/escaped.h"
 #include "report/measurement_fields.h"
 #include "report/results.h"
 
@@ -8,16 +9,6 @@
 namespace relievo {
 
 namespace {
-
-std::string quoted(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"') out += '"';
-        out += c;
-    }
-    return out + '"';
-}
 
 // Nine digits tell any two floats apart; more would be noise of the printing.
 std::string number(double v) {
@@ -38,7 +29,7 @@ std::string results_csv(const Results& results) {
     std::string csv;
     const auto put = [&csv](const std::string& field) {
         if (!csv.empty() && csv.back() != '\n') csv += ',';
-        csv += quoted(field);
+        csv += csv_text(field);
     };
     for (const char* name : {"technique", "material", "view", "elevation_deg"}) put(name);
     for (const std::string& id : knobs) put(id);
@@ -52,7 +43,7 @@ std::string results_csv(const Results& results) {
     csv += "\r\n";
 
     for (const Row& r : results.rows) {
-        csv += quoted(r.technique);  // never empty, so that put() sees that a line has begun
+        csv += csv_text(r.technique);  // never empty, so that put() sees that a line has begun
         for (const std::string& field : {r.material, r.view, number(r.elevation_deg)}) put(field);
         for (const std::string& id : knobs) {
             const auto it = std::ranges::find(r.knobs, id, &KnobValues::value_type::first);

@@ -97,7 +97,7 @@ TEST(FurReplication, WritesTables) {
     EXPECT_NE(page.find("202520"), std::string::npos);
     EXPECT_NE(page.find("`relievo replicate fur`"), std::string::npos);
     EXPECT_EQ(std::ranges::count(csv, '\n'), 7);
-    EXPECT_NE(csv.find("dragon; as it is.ply"), std::string::npos);  // a comma would be a column
+    EXPECT_NE(csv.find("\"dragon, as it is.ply\""), std::string::npos);  // a comma would be a column
     EXPECT_NE(fur_replication_text({}).find("nothing"), std::string::npos);
 }
 
