@@ -10,10 +10,10 @@
 #include "pipeline/fur_reference.h"
 #include "pipeline/fur_space.h"
 #include "pipeline/grown_fur.h"
+#include "pipeline/timer.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <future>
 #include <memory>
@@ -21,15 +21,6 @@
 namespace relievo {
 
 namespace {
-
-class Timer {
-public:
-    double ms() const { return std::chrono::duration<double, std::milli>(Clock::now() - start_).count(); }
-
-private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point start_ = Clock::now();
-};
 
 int faces_of(MapShape shape) {
     for (const MapShapeEntry& e : map_shapes)

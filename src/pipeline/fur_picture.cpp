@@ -6,26 +6,13 @@
 #include "fur/strand_grid.h"
 #include "pipeline/fur_reference.h"
 #include "pipeline/fur_painter.h"
+#include "pipeline/timer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <future>
 
 namespace relievo {
-
-namespace {
-
-class Timer {
-public:
-    double ms() const { return std::chrono::duration<double, std::milli>(Clock::now() - start_).count(); }
-
-private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point start_ = Clock::now();
-};
-
-}  // namespace
 
 void write_fur_picture(const std::filesystem::path& png, const Image8& picture) { write_png(png, picture, FirstRow::top); }
 

@@ -12,27 +12,14 @@
 #include "pipeline/fur_reference.h"
 #include "pipeline/fur_space.h"
 #include "pipeline/grown_fur.h"
+#include "pipeline/timer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <future>
 #include <memory>
 
 namespace relievo {
-
-namespace {
-
-class Timer {
-public:
-    double ms() const { return std::chrono::duration<double, std::milli>(Clock::now() - start_).count(); }
-
-private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point start_ = Clock::now();
-};
-
-}  // namespace
 
 LayersModel LappedDress::model(const LappedFurSettings& s) const {
     return {.mesh = &patches.mesh, .fur = &fur, .colour = &colour, .comb = &patches.comb, .tilt = s.coat.tilt, .bend = s.coat.bend, .height = s.coat.length, .light = s.light, .skin = s.coat.root_colour};
