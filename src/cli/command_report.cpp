@@ -1,6 +1,6 @@
 #include "cli/commands.h"
 
-#include "pipeline/rewrite_report.h"
+#include "pipeline/write_report.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -13,9 +13,8 @@
 #include "measure/steepness.h"
 #include "pipeline/map_set_bake.h"
 #include "pipeline/reference_picture.h"
+#include "pipeline/write_report.h"
 #include "reference/solids.h"
-#include "report/budget_table.h"
-#include "report/page.h"
 #include "report/pixels.h"
 #include "techniques/catalogue.h"
 
@@ -247,14 +246,9 @@ public:
         for (const MaterialSource& source : settings_.materials) compare_material(source, pictures.staging(), results, line);
 
         results.manifest.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-        const std::string csv = results_csv(results);
-        const std::string page = page_html(results);
         const std::string json = results_json(results);
-        const std::string budgets = budget_table(results);
         pictures.publish();
-        write_file_atomically(out / "results.csv", csv);
-        if (!budgets.empty()) write_file_atomically(out / "budgets.md", budgets);
-        write_file_atomically(out / "index.html", page);
+        write_report(out, results);
         write_file_atomically(out / "results.json", json);
         if (const auto messages = gpu_.validation_messages(); !messages.empty())
             throw Error("trust", "the Vulkan calls of this run", "the validation layers said: " + messages.front());

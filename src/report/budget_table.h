@@ -8,7 +8,8 @@
 namespace relievo {
 
 // Markdown, a line per technique in the catalogue's order: pictures inside the budget, hits astray, and the picture that comes closest
-// to the budget with the share of it that was needed. Rows that could not be judged are left out; empty if none could.
+// to the budget with the share of it that was needed, and the same of another material: how far apart the two are says what a budget set
+// without the first would have been worth there. Rows that could not be judged are left out; empty if none could.
 std::string budget_table(const Results& results);
 
 }  // namespace relievo

@@ -154,6 +154,9 @@ TEST(Answer, SaysWhetherPromisesAreKept) {
     EXPECT_EQ(answer(results).back(), "1 of 2 pictures break what their technique promises; worst is relief mapping on a seen at 30 degrees, with 3.0\u202f% of its hits "
                                       "astray where 0.10\u202f% are allowed.");
     EXPECT_NE(budget_table(results).find("| relief_mapping | 0 of 1 | 3.0\u202f% / 3.0\u202f% |"), std::string::npos) << budget_table(results);
+    results.rows.push_back(row_of("relief_mapping", "b", 30, 0, 2)), results.rows.back().m.astray = 0.00025, results.rows.back().m.astray_budget = 0.001;
+    EXPECT_NE(budget_table(results).find("of 0.10\u202f% | 30 | b: 0.25 |"), std::string::npos) << budget_table(results);
+    results.rows.pop_back();
     results.rows[1].m.astray = Measured<double>::missing("the relief was scaled");
     EXPECT_EQ(answer(results).back(), "Every technique keeps its promise in every picture.");
     EXPECT_EQ(budget_table(results).find("relief_mapping"), std::string::npos);
