@@ -29,7 +29,11 @@ bool hidden(vec4 p) {
 }
 
 void main() {
-    uint strand = gl_GlobalInvocationID.x;
+    // Software devices give each thread one unbroken run of groups. Strands follow the skin, so that one run would be the near side and another
+    // the far one, with nothing to draw: groups are dealt out in turns of 64, those beyond the last whole turn as they come.
+    uint turns = gl_NumWorkGroups.x / 64u, dealt = gl_WorkGroupID.x;
+    if (dealt < turns * 64u) dealt = dealt % turns * 64u + dealt / turns;
+    uint strand = dealt * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (strand >= uint(coat.strands)) return;
     // Strands of the far side, more than half of all, are given up at three of their points.
     if (hidden(projected(strand, coat.pieces)) && hidden(projected(strand, (2 * coat.pieces + 1) / 3)) && hidden(projected(strand, (coat.pieces + 1) / 3))) return;
