@@ -164,6 +164,7 @@ int main(int argc, char** argv) {
         else if (std::strcmp(argv[k], "--degrees") == 0) degrees = std::atof(value());
         else if (std::strcmp(argv[k], "--rays") == 0) rays = std::atoi(value());
         else if (std::strcmp(argv[k], "--out") == 0) out = value();
+        else if (argv[k][0] == '-') size = 0;  // a word not known: say which are
         else folder = argv[k];
     }
     if (size < 2 || size > 8192 || !(degrees >= 1 && degrees < 90) || rays < 1) {
