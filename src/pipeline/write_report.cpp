@@ -13,7 +13,9 @@ void write_report(const fs::path& folder, const Results& results) {
     const std::string page = page_html(results);
     const std::string budgets = budget_table(results);
     write_file_atomically(folder / "results.csv", csv);
-    if (!budgets.empty()) write_file_atomically(folder / "budgets.md", budgets);
+    std::error_code none;  // that nothing stands there is well
+    if (budgets.empty()) fs::remove(folder / "budgets.md", none);  // of an earlier comparison, whose promises were judged
+    else write_file_atomically(folder / "budgets.md", budgets);
     write_file_atomically(folder / "index.html", page);
 }
 

@@ -8,7 +8,7 @@
 
 namespace relievo {
 
-// Writes index.html, results.csv and, where promises were judged, budgets.md (budget_table.h) into folder. All are made before the first is
+// Writes index.html, results.csv and, where promises were judged, budgets.md (budget_table.h; else an older one is removed) into folder. All are made before the first is
 // written, so a page that cannot be made leaves the folder as it was.
 void write_report(const std::filesystem::path& folder, const Results& results);
 

@@ -129,21 +129,33 @@ TEST(Contract, CompareWritesTheReport) {
 
     // report: the page and the table again, the same but for nothing; from the file and from the folder.
     const std::string csv = read_text(out / "results.csv");
+    const std::string budgets = read_text(out / "budgets.md");
+    EXPECT_NE(budgets.find("max_mip_tracing"), std::string::npos) << budgets;
     for (const fs::path& named : {out / "results.json", out}) {
         fs::remove(out / "index.html");
         fs::remove(out / "results.csv");
+        fs::remove(out / "budgets.md");
         const Ended again = run({"report", named.string()});
         EXPECT_EQ(again.code, 0) << again.err;
         EXPECT_EQ(again.out, "");
         EXPECT_EQ(read_text(out / "index.html"), page);
         EXPECT_EQ(read_text(out / "results.csv"), csv);
+        EXPECT_EQ(read_text(out / "budgets.md"), budgets);
     }
+    // Numbers of which none was judged leave no verdict of older ones behind.
+    Json unjudged = json_of(out / "results.json");
+    for (const char* of : {"rows", "sweep"})
+        for (Json& row : unjudged[of]) row.erase("astray");
+    write_text(out / "results.json", unjudged.dump());
+    EXPECT_EQ(run({"report", out.string()}).code, 0);
+    EXPECT_FALSE(fs::exists(out / "budgets.md"));
+    const std::string last_page = read_text(out / "index.html");
     // A results.json that is none says so and spoils nothing.
     write_text(out / "results.json", "{\"manifest\": {");
     const Ended broken = run({"report", out.string()});
     EXPECT_EQ(broken.code, 1);
     EXPECT_NE(broken.err.find("results.json"), std::string::npos) << broken.err;
-    EXPECT_EQ(read_text(out / "index.html"), page);
+    EXPECT_EQ(read_text(out / "index.html"), last_page);
 }
 
 TEST(Contract, CompareTakesNamesAsTheyCome) {
