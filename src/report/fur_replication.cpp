@@ -221,7 +221,7 @@ std::string fur_replication_page(const FurReplication& r, const std::string& com
            "**Meshes**: of each object the nearest of at least as many faces as published, simplified to that many, or the largest there is. " +
            std::string(r.stand_ins ? "No folder of meshes was given: made-up scans of the published sizes stand in for the four scans.\n\n" : "\n\n") +
            "<!-- measured -->\nMade by `" + command + "` on " + r.device + ", " + std::to_string(r.width) + " x " + std::to_string(r.height) + ", medians of interleaved frames, reference of " +
-           std::to_string(r.samples) + " rays a pixel.\n\n" + fur_replication_text(r, true) + "<!-- /measured -->\n";
+           std::to_string(r.samples) + (r.samples == 1 ? " ray a pixel.\n\n" : " rays a pixel.\n\n") + fur_replication_text(r, true) + "<!-- /measured -->\n";
 }
 
 }  // namespace relievo
