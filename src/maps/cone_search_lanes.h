@@ -7,35 +7,9 @@
 //
 // Included once for every kind of machine (core/each_machine.h), in its namespace: no include guard.
 
+#include "maps/cone_lanes.h"
+
 namespace relievo::cone_search::RELIEVO_MACHINE {
-
-// Under GCC's and Clang's vector extension, as wide as a register of the machine: wider ones would be taken apart lane by lane.
-using Lanes = float __attribute__((vector_size(4 * RELIEVO_LANES)));
-using LaneMask = std::int32_t __attribute__((vector_size(4 * RELIEVO_LANES)));
-constexpr int lane_count = RELIEVO_LANES;
-
-inline bool any(LaneMask mask) {
-#if RELIEVO_LANES == 16
-    return __builtin_ia32_cvtd2mask512(mask) != 0;
-#elif RELIEVO_LANES == 8
-    return __builtin_ia32_movmskps256(reinterpret_cast<Lanes>(mask)) != 0;
-#else
-    std::uint64_t half[2];
-    std::memcpy(half, &mask, sizeof half);
-    return (half[0] | half[1]) != 0;
-#endif
-}
-// Compilers take a comparison of 16 lanes into a vector and back before they ask whether any holds.
-inline bool any_less(Lanes a, Lanes b) {
-#if RELIEVO_LANES == 16
-    return __builtin_ia32_cmpps512_mask(a, b, 1, -1, 4) != 0;
-#else
-    return any(a < b);
-#endif
-}
-inline Lanes least(Lanes a, Lanes b) { return a < b ? a : b; }
-inline Lanes most(Lanes a, Lanes b) { return a > b ? a : b; }
-inline Lanes magnitude(Lanes a) { return a < 0.0f ? -a : a; }
 
 // A cell's first corner as several texels see it: places in texels from them, and their own heights.
 struct Seen {
@@ -73,6 +47,11 @@ public:
             for (int l = 0; l < lane_count; ++l) {
                 lane_x_[g][l] = static_cast<float>(column(g, l));
                 lane_y_[g][l] = static_cast<float>(row(g, l));
+            }
+        for (int k = 0; k < cell_groups; ++k)
+            for (int l = 0; l < lane_count; ++l) {
+                cell_x_[k][l] = static_cast<float>((k * lane_count + l) % row_bits - 1);
+                cell_y_[k][l] = static_cast<float>((k * lane_count + l) / row_bits - 1);
             }
         // Only texels less than `ring` away along both axes are below this; all their cells are near ones.
         const float distance = static_cast<float>(ring) - metric_.step;
@@ -128,7 +107,7 @@ private:
         for (int g = 0; g < groups; ++g) {
             gather(g);
             slope2_[g] = near_.steepest(around_, apex_[g], metric_);
-            bound_[g] = slope2_[g] * slack;
+            set_bound(g);
         }
         loosen();
         kept_ = static_cast<int>(std::min<std::size_t>(steepened_, seed_count));
@@ -232,14 +211,63 @@ private:
         const float gx = std::max(0.0f, gap(x0_, low_x, high_x) - metric_.step);
         const float gy = std::max(0.0f, gap(y0_, low_y, high_y) - metric_.step);
         const float rise = top - lowest_;
-        if ((gx * gx * metric_.u2 + gy * gy * metric_.v2 - metric_.nearer) * flattest_ >= rise * rise) return 0;
-        unsigned open = 0;
-        for (int g = 0; g < groups; ++g) {
-            if ((asked & (1u << g)) == 0) continue;
+        const float nearest2 = gx * gx * metric_.u2 + gy * gy * metric_.v2;
+        if ((nearest2 - metric_.nearer) * flattest_ >= rise * rise) return 0;
+        unsigned open = asked;
+        if (metric_.step == 0.0f && nearest2 >= std::min(metric_.u2, metric_.v2)) {
+            const Sheet sheet = sheet_of(n, low_x, high_x, low_y, high_y, std::sqrt(nearest2));
+            for (unsigned left = asked; left != 0; left &= left - 1) {
+                const int g = std::countr_zero(left);
+                if (!rises_above(sheet, g)) open &= ~(1u << g);
+            }
+        }
+        for (unsigned left = open; left != 0; left &= left - 1) {
+            const int g = std::countr_zero(left);
             const Lanes above = most(top - apex_[g], Lanes{});
-            if (any_less(bound_[g] * squared_gap(g, low_x, high_x, low_y, high_y), above * above)) open |= 1u << g;
+            if (!any_less(bound_[g] * squared_gap(g, low_x, high_x, low_y, high_y), above * above)) open &= ~(1u << g);
         }
         return open;
+    }
+
+    // A node's part of the plane above it.
+    struct Sheet {
+        float x, y, half_x, half_y;    // texels, its middle from the tile's first texel on
+        float height, step_x, step_y;  // in the middle; a texel
+        float lost;                    // of distances, UV: see rises_above
+    };
+    Sheet sheet_of(const Node& n, int low_x, int high_x, int low_y, int high_y, float nearest) const {
+        const float* plane = reach_.planes[static_cast<std::size_t>(n.level - leaf_level)].at(n.i, n.j);
+        Sheet s;
+        s.half_x = 0.5f * static_cast<float>(high_x - low_x);
+        s.half_y = 0.5f * static_cast<float>(high_y - low_y);
+        s.x = static_cast<float>(low_x - x0_) + s.half_x;
+        s.y = static_cast<float>(low_y - y0_) + s.half_y;
+        s.step_x = plane[1];
+        s.step_y = plane[2];
+        s.height = plane[0] + s.step_x * s.half_x + s.step_y * s.half_y;
+        // Some ten roundings of 2^-24 of what is added up.
+        s.lost = metric_.nearer / nearest + 0x1p-18f * (nearest + static_cast<float>(2 * tile + 2 * s.half_x) * metric_.du +
+                                                        static_cast<float>(2 * tile + 2 * s.half_y) * metric_.dv);
+        return s;
+    }
+
+    // Whether the plane above a node rises above the cone of a lane. The distance r of a place p from the apex a is at least its
+    // part along any direction e, e (p - a), and sqrt(r^2 - nearer) at least r - nearer / r. So every texel's height less its
+    // cone's is at most a linear function of its place, which is largest in a corner of the node. With the direction of the node's
+    // middle, nothing is left of its size where it faces the apex with a slope like the cone's.
+    bool rises_above(const Sheet& s, int g) const {
+        const Lanes x = s.x - lane_x_[g];
+        const Lanes y = s.y - lane_y_[g];
+        const Lanes distance = root(x * x * metric_.u2 + y * y * metric_.v2);
+        const Lanes slope = root_[g] / distance;
+        const Lanes spread =
+            magnitude(s.step_x - x * metric_.u2 * slope) * s.half_x + magnitude(s.step_y - y * metric_.v2 * slope) * s.half_y;
+        return any_less(root_[g] * (distance - s.lost), s.height + 0x1p-18f - apex_[g] + spread);
+    }
+
+    void set_bound(int g) {
+        bound_[g] = slope2_[g] * slack;
+        root_[g] = root(bound_[g]);
     }
 
     Lanes squared_gap(int g, int low_x, int high_x, int low_y, int high_y) const {
@@ -253,102 +281,148 @@ private:
         return d * d;
     }
 
-    void block(const Node& n, unsigned asked) {
+    // Cells and texels of a leaf as bits: 8 a row, the cell or texel that is i right of and j above the first one at 8 j + i. Cells
+    // begin a texel before the leaf's first one.
+    using Bits = std::uint64_t;
+    static constexpr int row_bits = 8;
+    static constexpr int leaf_size = 1 << leaf_level;
+    static constexpr int leaf_cells = row_bits * (leaf_size + 1);
+    static constexpr int cell_groups = (leaf_cells + lane_count - 1) / lane_count;
+    static_assert(leaf_size + 2 <= row_bits && leaf_cells <= 64);
+
+    static constexpr Bits block_bits(int count_x, int count_y) {
+        Bits all = 0;
+        for (int j = 0; j < count_y; ++j) all |= ((Bits{1} << count_x) - 1) << (row_bits * j);
+        return all;
+    }
+
+    // The corners of a leaf's cells, row_bits a row.
+    struct Leaf {
+        int x, y;              // its first texel, from the tile's first one on
+        int count_x, count_y;  // texels
+        float height[row_bits * (leaf_size + 2) + 2 * lane_count];
+    };
+
+    void read(const Node& n, Leaf& leaf) const {
         const int first_x = n.i << n.level;
         const int first_y = n.j << n.level;
-        const int count_x = std::min(width_ - first_x, 1 << leaf_level);
-        const int count_y = std::min(height_ - first_y, 1 << leaf_level);
-        const int low_x = n.origin_x + first_x;
-        const int low_y = n.origin_y + first_y;
-        [[maybe_unused]] unsigned octants = 0;
-        if constexpr (Rule::directional)
-            octants = octants_of(low_x - 1 - (x0_ + tile - 1), low_x + count_x - x0_, low_y - 1 - (y0_ + tile - 1),
-                                 low_y + count_y - y0_);
+        leaf.x = n.origin_x + first_x - x0_;
+        leaf.y = n.origin_y + first_y - y0_;
+        leaf.count_x = std::min(width_ - first_x, leaf_size);
+        leaf.count_y = std::min(height_ - first_y, leaf_size);
+        const bool whole = first_x > 0 && first_x + leaf_size < width_;
+        for (int j = 0; j <= leaf.count_y + 1; ++j) {
+            int y = first_y + j - 1;
+            y = y < 0 ? y + height_ : y >= height_ ? y - height_ : y;
+            const float* from = texels_.at(0, y);
+            float* to = leaf.height + row_bits * j;
+            if (whole)
+                std::memcpy(to, from + first_x - 1, (leaf_size + 2) * sizeof(float));
+            else
+                for (int i = 0; i <= leaf.count_x + 1; ++i) to[i] = from[wrap_index(first_x + i - 1, width_)];
+        }
+    }
+
+    // The cells of a leaf that may fall, seen from the texels [x, x + w] x [y, y + h] of the tile.
+    Bits falling(const Leaf& leaf, int x, int y, int w, int h) const {
+        Bits cells = 0;
+        for (int k = 0; k < cell_groups; ++k) {
+            const auto at = [&](int offset) {
+                Lanes v;
+                std::memcpy(&v, leaf.height + k * lane_count + offset, sizeof v);
+                return v;
+            };
+            const Corners c{at(0), at(1), at(row_bits), at(row_bits + 1)};
+            const Lanes low_x = cell_x_[k] + static_cast<float>(leaf.x - x - w);
+            const Lanes low_y = cell_y_[k] + static_cast<float>(leaf.y - y - h);
+            cells |=
+                Bits{bits_of(Rule::falls(c, low_x, low_x + static_cast<float>(w + 1), low_y, low_y + static_cast<float>(h + 1)))}
+                << (k * lane_count);
+        }
+        return cells & block_bits(leaf.count_x + 1, leaf.count_y + 1);
+    }
+
+    void block(const Node& n, unsigned asked) {
+        Leaf leaf;
+        read(n, leaf);
+        Bits cells_asked = block_bits(leaf.count_x + 1, leaf.count_y + 1);
+        Bits texels_asked = block_bits(leaf.count_x, leaf.count_y);
+        if constexpr (Rule::directional) {
+            cells_asked = falling(leaf, 0, 0, tile - 1, tile - 1);
+            if (cells_asked == 0) return;
+            texels_asked &= cells_asked | cells_asked >> 1 | cells_asked >> row_bits | cells_asked >> (row_bits + 1);
+        }
         bool changed = false;
         for (int g = 0; g < groups; ++g) {
             if ((asked & (1u << g)) == 0) continue;
-            Lanes x2[1 << leaf_level];
-            for (int i = 0; i < count_x; ++i) x2[i] = gap2(lane_x_[g], low_x + i - x0_, low_x + i - x0_) * metric_.u2;
-            std::uint32_t hits = 0;  // texels, five a row
-            for (int j = 0; j < count_y; ++j) {
-                const Lanes y2 = gap2(lane_y_[g], low_y + j - y0_, low_y + j - y0_) * metric_.v2 - metric_.nearer;
-                for (int i = 0; i < count_x; ++i) {
-                    if constexpr (Rule::directional)
-                        if ((reach_.texels[at(first_x + i, first_y + j)] & octants) == 0) continue;
-                    const float top = texels_(first_x + i, first_y + j);
-                    const Lanes above = most(top - apex_[g], Lanes{});
-                    const Lanes d2 = x2[i] + y2;
-                    if (!any_less(bound_[g] * d2, above * above)) continue;
-                    if (!any((bound_[g] * d2 < above * above) & (d2 >= near2_))) continue;
-                    const Lanes dx = static_cast<float>(low_x + i - x0_) - lane_x_[g];
-                    const Lanes dy = static_cast<float>(low_y + j - y0_) - lane_y_[g];
-                    Rule::texel(dx * dx * metric_.u2 + dy * dy * metric_.v2, above, slope2_[g]);
-                    bound_[g] = slope2_[g] * slack;
-                    hits |= 1u << (5 * j + i);
-                }
+            Lanes x2[leaf_size], y2[leaf_size];
+            for (int i = 0; i < leaf_size; ++i) {
+                x2[i] = gap2(lane_x_[g], leaf.x + i, leaf.x + i) * metric_.u2;
+                y2[i] = gap2(lane_y_[g], leaf.y + i, leaf.y + i) * metric_.v2 - metric_.nearer;
             }
-            if (hits != 0) changed |= cells(n, g, hits, octants);
+            Bits hits = 0;
+            for (Bits open = texels_asked; open != 0; open &= open - 1) {
+                const int k = std::countr_zero(open);
+                const int i = k % row_bits;
+                const int j = k / row_bits;
+                const Lanes above = most(leaf.height[k + row_bits + 1] - apex_[g], Lanes{});
+                const Lanes d2 = x2[i] + y2[j];
+                if (!any_less(bound_[g] * d2, above * above)) continue;
+                if (!any((bound_[g] * d2 < above * above) & (d2 >= near2_))) continue;
+                const Lanes dx = static_cast<float>(leaf.x + i) - lane_x_[g];
+                const Lanes dy = static_cast<float>(leaf.y + j) - lane_y_[g];
+                Rule::texel(dx * dx * metric_.u2 + dy * dy * metric_.v2, above, slope2_[g]);
+                set_bound(g);
+                hits |= Bits{1} << k;
+            }
+            if (hits != 0) changed |= cells(leaf, g, cells_asked & (hits | hits << 1 | hits << row_bits | hits << (row_bits + 1)));
         }
         if (!changed) return;
         loosen();
         recent_[steepened_++ % seed_count] = n;
     }
 
-    // The cells that the texels of `hits` are corners of.
-    bool cells(const Node& n, int g, std::uint32_t hits, [[maybe_unused]] unsigned octants) {
-        const int first_x = (n.i << n.level) - 1;
-        const int first_y = (n.j << n.level) - 1;
+    bool cells(const Leaf& leaf, int g, Bits asked) {
+        if constexpr (Rule::directional) asked &= falling(leaf, column(g, 0), row(g, 0), group_w - 1, group_h - 1);
         const Lanes before = slope2_[g];
-        for (std::uint32_t open = hits | hits << 1 | hits << 5 | hits << 6; open != 0; open &= open - 1) {
+        for (Bits open = asked; open != 0; open &= open - 1) {
             const int k = std::countr_zero(open);
-            const int i = first_x + k % 5;
-            const int j = first_y + k / 5;
-            const int wi = i < 0 ? i + width_ : i;
-            const int wj = j < 0 ? j + height_ : j;
-            const int wi1 = wi + 1 == width_ ? 0 : wi + 1;
-            const int wj1 = wj + 1 == height_ ? 0 : wj + 1;
-            if constexpr (Rule::directional)
-                if ((reach_.cells[at(wi, wj)] & octants) == 0) continue;
-            const float corners[4] = {texels_(wi, wj), texels_(wi1, wj), texels_(wi, wj1), texels_(wi1, wj1)};
-            if constexpr (Rule::directional) {
-                const float x = static_cast<float>(n.origin_x + i - x0_ - column(g, 0));
-                const float y = static_cast<float>(n.origin_y + j - y0_ - row(g, 0));
-                if (!Rule::falls(corners, x - (group_w - 1), x + 1, y - (group_h - 1), y + 1)) continue;
-            }
+            const float* corner = leaf.height + k;
             const Lanes none{};
-            const Corners c{corners[0] + none, corners[1] + none, corners[2] + none, corners[3] + none};
-            const Seen seen{static_cast<float>(n.origin_x + i - x0_) - lane_x_[g],
-                            static_cast<float>(n.origin_y + j - y0_) - lane_y_[g], apex_[g]};
+            const Corners c{corner[0] + none, corner[1] + none, corner[row_bits] + none, corner[row_bits + 1] + none};
+            const Seen seen{static_cast<float>(leaf.x + k % row_bits - 1) - lane_x_[g],
+                            static_cast<float>(leaf.y + k / row_bits - 1) - lane_y_[g], apex_[g]};
             Rule::edges(c, seen, metric_, slope2_[g]);
             search_inside(c, seen, slope2_[g]);
         }
-        bound_[g] = slope2_[g] * slack;
+        set_bound(g);
         return any_less(before, slope2_[g]);
     }
 
     void search_inside(const Corners& c, const Seen& seen, Lanes& k2) {
-        LaneMask inside = may_exceed(c, seen, k2);
-        if (!any(inside)) return;
-        inside &= Rule::may_bind_inside(c, seen, metric_, k2);
-        if (any(inside)) search_inside(c, seen, inside, k2);
+        const std::uint32_t exceeding = may_exceed(c, seen, k2);
+        if (exceeding == 0) return;
+        const std::uint32_t inside = exceeding & bits_of(Rule::may_bind_inside(c, seen, metric_, k2));
+        if (inside != 0) search_inside(c, seen, inside, k2);
     }
 
-    // Whether any point of a cell may be steeper than k2, by its corners (Metric).
-    LaneMask may_exceed(const Corners& c, const Seen& seen, Lanes k2) const {
+    // The lanes for which a point of a cell may be steeper than k2, by its corners (Metric).
+    std::uint32_t may_exceed(const Corners& c, const Seen& seen, Lanes k2) const {
         const Lanes x0 = gap2(seen.dx, 0, 0) * metric_.u2;
         const Lanes x1 = gap2(seen.dx, -1, -1) * metric_.u2;
         const Lanes y0 = gap2(seen.dy, 0, 0) * metric_.v2 - metric_.nearer;
         const Lanes y1 = gap2(seen.dy, -1, -1) * metric_.v2 - metric_.nearer;
+        const Lanes bound = k2 * slack;
         const auto exceeds = [&](Lanes height, Lanes d2) {
             const Lanes above = most(height - seen.apex, Lanes{});
-            return k2 * slack * d2 < above * above;
+            return bits_less(bound * d2, above * above);
         };
         return exceeds(c.h00, x0 + y0) | exceeds(c.h10, x1 + y0) | exceeds(c.h01, x0 + y1) | exceeds(c.h11, x1 + y1);
     }
 
-    __attribute__((noinline)) void search_inside(const Corners& c, const Seen& seen, LaneMask inside, Lanes& k2) {
-        for (int l = 0; l < lane_count; ++l) {
-            if (inside[l] == 0) continue;
+    __attribute__((noinline)) void search_inside(const Corners& c, const Seen& seen, std::uint32_t inside, Lanes& k2) {
+        for (; inside != 0; inside &= inside - 1) {
+            const int l = std::countr_zero(inside);
             const double apex = seen.apex[l];
             const bool right = seen.dx[l] >= 0;
             const bool up = seen.dy[l] >= 0;
@@ -359,10 +433,6 @@ private:
                               right ? seen.dx[l] : -1 - seen.dx[l], up ? seen.dy[l] : -1 - seen.dy[l]};
             k2[l] = std::max(k2[l], static_cast<float>(Rule::inside(turned, metric_, k2[l])));
         }
-    }
-
-    std::size_t at(int i, int j) const {
-        return static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(i);
     }
 
     void loosen() {
@@ -391,14 +461,16 @@ private:
     int kept_ = 0;
 
     int x0_ = 0, y0_ = 0;
-    float patch_[patch][patch];                 // heights from `ring` texels before the tile on
-    Lanes around_[2 * ring + 1][2 * ring + 1];  // around each texel of a group
-    Lanes lane_x_[groups], lane_y_[groups];     // places of the lanes in the tile
-    Lanes apex_[groups];                        // heights of the tile's texels
-    Lanes slope2_[groups];                      // largest squared slope so far
-    Lanes bound_[groups];                       // the same, less `slack`
-    float lowest_ = 0;                          // of apex_
-    float flattest_ = 0;                        // of bound_
+    float patch_[patch][patch];                        // heights from `ring` texels before the tile on
+    Lanes around_[2 * ring + 1][2 * ring + 1];         // around each texel of a group
+    Lanes lane_x_[groups], lane_y_[groups];            // places of the lanes in the tile
+    Lanes cell_x_[cell_groups], cell_y_[cell_groups];  // of a leaf's cells, from its first texel on
+    Lanes apex_[groups];                               // heights of the tile's texels
+    Lanes slope2_[groups];                             // largest squared slope so far
+    Lanes bound_[groups];                              // the same, less `slack`
+    Lanes root_[groups];                               // square root of that
+    float lowest_ = 0;                                 // of apex_
+    float flattest_ = 0;                               // of bound_
 };
 
 template <class Rule>

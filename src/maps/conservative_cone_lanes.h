@@ -23,9 +23,12 @@ struct ConservativeRule : ConservativeCells {
     // s2.
     static void edge(Lanes rise, Lanes b, Lanes e2, Lanes along, float s2, Lanes& k2) {
         const Lanes at_foot = rise - b * along;
-        const LaneMask steeper =
-            between_ends(at_foot, b, e2, s2 * along, s2) & (at_foot * at_foot * s2 + b * b * e2 > k2 * slack * (e2 * s2));
-        if (any(steeper)) k2 = steeper ? most(k2, at_foot * at_foot * (1.0f / e2) + b * b * (1.0f / s2)) : k2;
+        const Lanes first = b * e2 - at_foot * (s2 * along);
+        const Lanes last = at_foot * s2;
+        if ((bits_less(Lanes{}, first) & bits_less(first, last) &
+             bits_less(k2 * slack * (e2 * s2), at_foot * at_foot * s2 + b * b * e2)) == 0)
+            return;
+        k2 = (first > 0.0f) & (first < last) ? most(k2, at_foot * at_foot * (1.0f / e2) + b * b * (1.0f / s2)) : k2;
     }
     static LaneMask between_ends(Lanes at_foot, Lanes b, Lanes e2, Lanes along_s2, float s2) {
         const Lanes first = b * e2 - at_foot * along_s2;

@@ -8,16 +8,16 @@ struct RelaxedRule : RelaxedCells {
 
     static void texel(Lanes, Lanes, Lanes&) {}  // where nothing falls behind it, it limits nothing
 
-    // Whether a cell whose points lie [x0, x1] by [y0, y1] texels from some texels may fall, seen from them.
-    static bool falls(const float* h, float x0, float x1, float y0, float y1) {
-        const auto least_product = [](float a0, float a1, float b0, float b1) {
-            const float low = std::min(b0, b1);
-            const float high = std::max(b0, b1);
-            return std::min(std::min(a0 * low, a0 * high), std::min(a1 * low, a1 * high));
+    // Whether cells whose points lie [x0, x1] by [y0, y1] texels from some texels may fall, seen from them.
+    static LaneMask falls(const Corners& c, Lanes x0, Lanes x1, Lanes y0, Lanes y1) {
+        const auto least_product = [](Lanes a0, Lanes a1, Lanes b0, Lanes b1) {
+            const Lanes low = least(b0, b1);
+            const Lanes high = most(b0, b1);
+            return least(least(a0 * low, a0 * high), least(a1 * low, a1 * high));
         };
-        const float along_x = least_product(x0, x1, h[1] - h[0], h[3] - h[2]);
-        const float along_y = least_product(y0, y1, h[2] - h[0], h[3] - h[1]);
-        return along_x + along_y < 0x1p-20f * (std::abs(along_x) + std::abs(along_y));
+        const Lanes along_x = least_product(x0, x1, c.h10 - c.h00, c.h11 - c.h01);
+        const Lanes along_y = least_product(y0, y1, c.h01 - c.h00, c.h11 - c.h10);
+        return along_x + along_y < 0x1p-20f * (magnitude(along_x) + magnitude(along_y));
     }
 
     // The part of an edge, [low, high] of [0,1], where a function that is linear from f0 to f1 is negative.
