@@ -57,12 +57,17 @@ void add_bake_command(CLI::App& app) {
     add_material_options(*verb, o->settings.material);
     auto* map = verb->add_option("--map", o->map, "id of the map (relievo list maps)");
     auto* verifies = verb->add_flag("--verify", o->verify, "prove instead that the maps, as stored in 16 bits, keep what they promise (--map: that one only)");
+    verb->add_option("--device", o->settings.device,
+                     "that bakes, the same bits on each: cpu; auto, a GPU where there is one that has programs for the map; gpu; software; or part of a device's name")
+        ->excludes(verifies)
+        ->capture_default_str();
     verb->add_flag("--no-cache", o->no_cache, "bake anew, whatever the cache holds");
     verb->add_flag("--quiet", o->quiet, "no progress and no notes");
-    verb->add_flag("--json", o->json, "print {map, size, ms, threads} as JSON");
+    verb->add_flag("--json", o->json, "print {map, size, machine, ms, threads} as JSON");
     verb->add_option("--out", o->settings.out, "FILE.png (8 or 16 bit) or FILE.exr (32-bit float)")->excludes(verifies);
     verb->footer("Examples:\n  relievo bake --material wall --map normal --out wall_normal.png\n"
                  "  relievo bake --material wall --map cone --no-cache --json --out wall_cone.exr\n"
+                 "  relievo bake --material wall --map cell_cone --device gpu --json --out wall_cells.exr\n"
                  "  relievo bake --material wall --verify");
     verb->callback([o, map] {
         BakeSettings& s = o->settings;
@@ -91,15 +96,17 @@ void add_bake_command(CLI::App& app) {
         if (o->json) {
             std::printf("%s\n", nlohmann::ordered_json{{"map", o->map},
                                                        {"size", {baked.width, baked.height}},
+                                                       {"machine", baked.device.empty() ? "CPU" : baked.device},
                                                        {"ms", baked.ms},
+                                                       {"start_ms", baked.start_ms},
                                                        {"threads", baked.threads},
                                                        {"from_cache", baked.from_cache},
                                                        {"out", s.out}}
                                     .dump(2)
                                     .c_str());
         } else if (!o->quiet) {
-            std::fprintf(stderr, "%s: %s, %d x %d, %.1f ms%s\n", s.out.c_str(), o->map.c_str(), baked.width, baked.height, baked.ms,
-                         baked.from_cache ? " (from the cache)" : "");
+            std::fprintf(stderr, "%s: %s, %d x %d, %.1f ms%s%s\n", s.out.c_str(), o->map.c_str(), baked.width, baked.height, baked.ms,
+                         baked.from_cache ? " (from the cache)" : "", baked.device.empty() ? "" : (" on " + baked.device).c_str());
         }
     });
 }

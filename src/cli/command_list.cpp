@@ -5,6 +5,7 @@
 #include "core/suggest.h"
 #include "fur/fur_modes.h"
 #include "maps/map_kinds.h"
+#include "render/device_bake.h"
 #include "render/gpu_renderer.h"
 #include "scenes/published_tests.h"
 #include "scenes/scene.h"
@@ -63,7 +64,7 @@ Json fur_rows() {
 Json map_rows() {
     Json rows = Json::array();
     for (const MapKind& m : map_kinds())
-        rows.push_back({{"id", m.id}, {"title", m.title}, {"summary", m.summary}, {"format", m.format}, {"source", m.source}});
+        rows.push_back({{"id", m.id}, {"title", m.title}, {"summary", m.summary}, {"format", m.format}, {"source", m.source}, {"on_device", bakes_on_device(m.map)}});
     return rows;
 }
 

@@ -1,4 +1,4 @@
-// A buffer the CPU sees all the time: uniforms, rays, results, staging.
+// Buffers: those the CPU sees all the time (uniforms, rays, results, staging), and those it never sees.
 #pragma once
 
 #include "gpu/device.h"
@@ -9,7 +9,7 @@ struct Buffer {
     vk::raii::DeviceMemory memory = nullptr;  // declared first: freed after the buffer
     vk::raii::Buffer handle = nullptr;
     vk::DeviceSize size = 0;
-    void* mapped = nullptr;
+    void* mapped = nullptr;  // null: the CPU does not see it
 
     template <class T>
     T* as() const {
@@ -19,5 +19,8 @@ struct Buffer {
 
 // Host-coherent; cached where the device has that, because results are read back whole.
 Buffer make_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage);
+
+// In the device's own memory, not mapped: what programs write for programs.
+Buffer make_device_buffer(const Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage);
 
 }  // namespace relievo::gpu

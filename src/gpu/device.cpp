@@ -138,6 +138,11 @@ std::vector<DeviceInfo> list_devices() {
     return devices;
 }
 
+DeviceInfo chosen_device(const std::string& choice) {
+    const std::vector<DeviceInfo> devices = list_devices();
+    return devices[choose(devices, choice)];
+}
+
 Device::Device(const DeviceSettings& settings) : messages_(std::make_unique<MessageLog>()) {
     try {
         context_.emplace();

@@ -23,6 +23,9 @@ struct DeviceInfo {
 // Every Vulkan device of this machine, in the loader's order; none if there is no Vulkan at all.
 std::vector<DeviceInfo> list_devices();
 
+// The one that DeviceSettings::choice means. Throws Error where there is none.
+DeviceInfo chosen_device(const std::string& choice);
+
 class MessageLog;
 
 struct DeviceSettings {

@@ -17,11 +17,11 @@ namespace relievo {
 
 namespace {
 
-// The least whole number of 1/255 not below, as the float next to it.
+// The least level not below.
 float rounded_up(float x) {
     int k = static_cast<int>(std::ceil(x * 255.0 - 0.01));  // the float next to k/255 may lie on either side of it
-    while (static_cast<float>(k / 255.0) < x) ++k;
-    return static_cast<float>(k / 255.0);
+    while (cell_cone_level(k) < x) ++k;
+    return cell_cone_level(k);
 }
 
 }  // namespace

@@ -8,6 +8,9 @@
 
 namespace relievo {
 
+// The values that a channel takes, k from 0 to 255.
+inline float cell_cone_level(int k) { return static_cast<float>(k / 255.0); }
+
 // One image a quadrant, stacked upward: quadrant q of cell (i, j) is texel (i, q * height + j). q & 1 looks toward smaller i, else
 // larger; q & 2 toward smaller j, else larger. The cell's corners are texels i, i+1 and j, j+1 with repeat addressing. Four channels,
 // each rounded up to a whole number of 1/255, so that a device holds a cell in 32 bits (in 64, roofs would be lower by 1/500 in the mean
@@ -19,6 +22,7 @@ namespace relievo {
 // mean of fBm, cobbles and spikes, and cones toward all sides at once with them no fewer (docs/concepts/exact_casting.md).
 // The result does not depend on the number of threads (0: all cores).
 // Heights are finite and in [0,1], sides at most 16384. `progress` may throw Cancelled.
+// render/cell_cone_bake.h makes the same bits on a device.
 ImageF cell_cone_map(const HeightField& field, int threads = 0, const Progress& progress = {});
 
 }  // namespace relievo

@@ -83,18 +83,25 @@ BakedMap bake_map(const BakeSettings& settings, const Progress& progress) {
     if (exr && settings.map == Map::colour) throw UsageError("--out " + settings.out + ": the colour map is 8-bit sRGB and is written as .png");
     const AtomicFile probe(out);  // an unwritable target is known before the work
 
+    const auto now = [] { return std::chrono::steady_clock::now(); };
+    const auto started = now();
+    BakeMachine machine = BakeMachine::named(settings.device);
+    const bool on_device = machine.baker_of(settings.map) != nullptr;  // so is a device that is not there
+    const double start_ms = on_device ? std::chrono::duration<double, std::milli>(now() - started).count() : 0;
     report(progress, "loading", 0);
     Material material = load_source(settings.material);
     report(progress, "baking", 0);  // hears an interruption of the loading
-    const auto began = std::chrono::steady_clock::now();
+    const auto began = now();
     const Map wanted[] = {settings.map};
     const BakedMaps baked = bake_maps(std::move(material), wanted,
-                                      {.threads = settings.threads, .use_cache = settings.use_cache, .progress = progress});
-    const auto ended = std::chrono::steady_clock::now();
+                                      {.threads = settings.threads, .use_cache = settings.use_cache, .progress = progress, .machine = &machine});
+    const auto ended = now();
 
     BakedMap result{.width = 0,
                     .height = 0,
                     .ms = std::chrono::duration<double, std::milli>(ended - began).count(),
+                    .start_ms = start_ms,
+                    .device = baked.device,
                     .threads = settings.threads > 0 ? settings.threads : default_threads(),
                     .from_cache = baked.from_cache,
                     .notes = baked.notes};

@@ -202,7 +202,8 @@ class Comparison {
 public:
     Comparison(const CompareSettings& settings, const Progress& progress)
         : settings_(settings), techniques_(settings.techniques), views_(settings.views), progress_(progress),
-          gpu_(settings.device, settings.validation) {
+          gpu_(settings.device, settings.validation),
+          machine_(BakeMachine::automatic(settings.device)) {
         if (techniques_.empty())
             for (const Technique& t : techniques()) techniques_.push_back(&t);
         if (views_.empty()) views_.assign(views().begin(), views().end());
@@ -275,7 +276,7 @@ private:
         const std::string folder = unique(folder_name(material.name), folders_);
 
         BakedMaps baked = bake_maps(std::move(material), maps_to_draw(techniques_, std::span(&settings_.options, 1)),
-                                    {.threads = settings_.threads, .use_cache = settings_.use_cache, .progress = baking});
+                                    {.threads = settings_.threads, .use_cache = settings_.use_cache, .progress = baking, .machine = &machine_});
         results.manifest.materials.push_back({.name = name,
                                               .width = baked.maps.height.width(),
                                               .height = baked.maps.height.height(),
@@ -414,6 +415,7 @@ private:
     std::vector<View> views_;
     const Progress& progress_;
     GpuRenderer gpu_;
+    BakeMachine machine_;
     PictureSettings picture_;
     std::set<std::string> names_;
     std::set<std::string> folders_;

@@ -105,12 +105,27 @@ BakedMaps bake_maps(Material material, std::span<const Map> wanted, const BakeOp
         grey(0, 0, 3) = 255;
         maps.colour = colour_mip_chain(material.colour ? std::move(*material.colour) : std::move(grey), threads);
     }
+    const auto bake_now = [&](const MapKind& kind, const MapBake& bake) {
+        DeviceBaker* device = options.machine != nullptr ? options.machine->baker_of(kind.map) : nullptr;
+        if (device == nullptr) {
+            kind.bake(maps, bake);
+            return;
+        }
+        try {
+            maps.*kind.image = device->bake(kind.map, maps.height, bake);
+            baked.device = device->device_name();
+        } catch (const Error& e) {
+            if (options.machine->insists()) throw;
+            baked.notes.push_back("The CPU baked instead of the GPU: " + std::string(e.what()));
+            kind.bake(maps, bake);
+        }
+    };
     const auto folder = options.use_cache ? MapCache::default_folder() : std::nullopt;
     for (const MapKind& kind : map_kinds()) {
         if (kind.bake == nullptr || !wants(kind.map) || (kind.map == Map::normal && !maps.normal.empty())) continue;
         const MapBake bake{.height_scale = baked.height_scale, .threads = threads, .progress = options.progress};
         if (!folder || kind.cached_version == 0) {
-            kind.bake(maps, bake);
+            bake_now(kind, bake);
             continue;
         }
         const MapKey key{.map_id = kind.id, .baker_version = kind.cached_version, .width = maps.height.width(), .height = maps.height.height(), .content = heights};
@@ -118,7 +133,7 @@ BakedMaps bake_maps(Material material, std::span<const Map> wanted, const BakeOp
             maps.*kind.image = std::move(*cached);
             baked.from_cache = true;
         } else {
-            kind.bake(maps, bake);
+            bake_now(kind, bake);
             MapCache(*folder).store(key, maps.*kind.image);
         }
     }

@@ -4,6 +4,7 @@
 #include "core/map_set.h"
 #include "core/material.h"
 #include "core/progress.h"
+#include "pipeline/bake_machine.h"
 #include "techniques/modifiers.h"
 
 #include <optional>
@@ -17,6 +18,7 @@ struct BakeOptions {
     int threads = 0;         // 0: all cores; the maps do not depend on it
     bool use_cache = true;   // read and write the disk cache of expensive maps (map_cache.h)
     Progress progress = {};
+    BakeMachine* machine = nullptr;  // null: the CPU; the maps do not depend on it
 };
 
 struct BakedMaps {
@@ -27,6 +29,7 @@ struct BakedMaps {
     std::vector<std::string> notes;  // the material's and those of the baking
     std::string input_hash;          // of heights, normals and colours
     bool from_cache = false;         // every expensive map came from the cache
+    std::string device;              // that baked a map, or empty
 };
 
 // The maps that these techniques need under these options, with those that every picture is shaded by; each once.

@@ -52,8 +52,9 @@ RenderedPicture render_picture(const RenderSettings& settings, const Progress& p
     const std::vector<Map> wanted = maps_to_draw(std::span(&settings.technique, drawn), std::span(&picture.options, drawn));
     Material material = load_source(settings.material);
     if (settings.view.from_behind()) material = back_side(std::move(material));
+    BakeMachine machine = BakeMachine::automatic(settings.device);
     const BakedMaps baked = bake_maps(std::move(material), wanted,
-                                      {.threads = settings.material.threads, .use_cache = settings.use_cache, .progress = progress});
+                                      {.threads = settings.material.threads, .use_cache = settings.use_cache, .progress = progress, .machine = &machine});
 
     report(progress, "drawing", 0);
     const Stage stage = stage_for(settings.view);

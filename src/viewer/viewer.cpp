@@ -290,8 +290,9 @@ void run_viewer(const ViewerSettings& settings) {
     report(settings.progress, "loading", 0);
     Material material = load_source(settings.material);
     std::string label = material_label(material);
-    BakedMaps baked =
-        bake_maps(std::move(material), every_map /* the menu reaches every technique */, {.threads = settings.material.threads, .progress = settings.progress});
+    BakeMachine machine = BakeMachine::automatic(settings.device);
+    BakedMaps baked = bake_maps(std::move(material), every_map /* the menu reaches every technique */,
+                                {.threads = settings.material.threads, .progress = settings.progress, .machine = &machine});
     gpu::vulkan_errors_as("show", "the window",
                           [&] { Viewer(settings, std::move(baked), std::move(label), std::move(window)).run(); });
 }

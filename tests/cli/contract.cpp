@@ -299,6 +299,67 @@ TEST(Contract, BakeWritesEveryMap) {
     for (std::size_t i = 0; i < top.texels.size(); ++i) EXPECT_GE(top_png.texels[i], top.texels[i]);
 }
 
+// The device of this machine, even a software one where it is asked for, makes the file that the CPU makes.
+TEST(Contract, ADeviceBakesTheSameMaps) {
+    if (!has_device()) GTEST_SKIP() << "no Vulkan device";
+    const Folder folder;
+    const std::string wave = wave_folder(folder.path() / "wave", 37, 20);
+    const Json maps = Json::parse(run({"list", "maps", "--json"}).out, nullptr, false);
+    int on_device = 0;
+    for (const Json& map : maps) {
+        const std::string id = map["id"];
+        SCOPED_TRACE(id);
+        const auto baked = [&](const std::string& device, const std::string& file) {
+            return run({"bake", "--material", wave, "--map", id, "--device", device, "--json", "--quiet", "--out", file});
+        };
+        if (!map["on_device"].get<bool>()) {
+            const Ended refused = baked("gpu", folder / "refused.png");
+            EXPECT_EQ(refused.code, 2);
+            for (const char* said : {"CPU", "cell_cone", id.c_str()}) EXPECT_NE(refused.err.find(said), std::string::npos) << refused.err;
+            continue;
+        }
+        ++on_device;
+        const Ended by_cpu = baked("cpu", folder / "cpu.exr");
+        const Ended by_device = baked("gpu", folder / "device.exr");
+        ASSERT_EQ(by_cpu.code, 0) << by_cpu.err;
+        ASSERT_EQ(by_device.code, 0) << by_device.err;
+        EXPECT_TRUE(read_text(folder / "cpu.exr") == read_text(folder / "device.exr"));
+        EXPECT_EQ(Json::parse(by_cpu.out)["machine"], "CPU");
+        EXPECT_EQ(Json::parse(by_cpu.out)["start_ms"], 0);
+        const Json said = Json::parse(by_device.out);
+        EXPECT_NE(said["machine"], "CPU");
+        EXPECT_GT(said["start_ms"].get<double>(), 0);
+        EXPECT_EQ(baked("voodoo2", folder / "none.exr").code, 1);
+        // By itself a device bakes only if it is no software one.
+        const Json devices = Json::parse(run({"list", "devices", "--json"}).out);
+        const bool real = std::ranges::any_of(devices, [](const Json& d) { return d["kind"] == "GPU" && d["lacks"] == ""; });
+        const Ended by_either = baked("auto", folder / "either.exr");
+        ASSERT_EQ(by_either.code, 0) << by_either.err;
+        EXPECT_EQ(Json::parse(by_either.out)["machine"] != "CPU", real);
+    }
+    EXPECT_GT(on_device, 0);
+}
+
+// Without Vulkan the CPU bakes unless a device is insisted on.
+TEST(Contract, BakingNeedsNoDevice) {
+    const Folder folder;
+    const std::string wave = wave_folder(folder.path() / "wave", 16, 16);
+    for (const char* list : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) ::setenv(list, "/no/driver.json", 1);
+    const auto baked = [&](const std::string& device) {
+        return run({"bake", "--material", wave, "--map", "cell_cone", "--device", device, "--json", "--out", folder / (device + ".exr")});
+    };
+    const Ended by_cpu = baked("cpu");
+    const Ended any = baked("auto");
+    const Ended insisted = baked("gpu");
+    for (const char* list : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) ::unsetenv(list);
+    EXPECT_EQ(by_cpu.code, 0) << by_cpu.err;
+    ASSERT_EQ(any.code, 0) << any.err;
+    EXPECT_EQ(Json::parse(any.out)["machine"], "CPU");
+    EXPECT_EQ(insisted.code, 1);
+    EXPECT_NE(insisted.err.find("Vulkan"), std::string::npos) << insisted.err;
+    EXPECT_TRUE(read_text(folder / "cpu.exr") == read_text(folder / "auto.exr"));
+}
+
 TEST(Contract, TheCacheChangesNothing) {
     const Folder folder;
     const std::string wave = wave_folder(folder.path() / "wave");

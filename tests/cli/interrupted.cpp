@@ -48,6 +48,14 @@ std::vector<std::string> long_comparison(const std::string& out, const std::stri
     return {"compare", "--material", "cobbles", "--texels", texels, "--size", "1280x720", "--runs", "500", "--no-cache", "--device", "software", "--out", out};
 }
 
+// Noise is the cone map's worst: no texel is far below its neighbours' cones.
+void write_noise(const fs::path& file, int size) {
+    ImageF noise(size, size, 1);
+    std::mt19937 random(7);
+    for (float& h : noise.texels) h = static_cast<float>(random() & 0xffff) / 65535.0f;
+    write_png_16(file, noise, FirstRow::bottom);
+}
+
 }  // namespace
 
 TEST(Interrupted, ComparisonLeavesNothing) {
@@ -81,15 +89,24 @@ TEST(Interrupted, ComparisonLeavesAnOlderReportWhole) {
 
 TEST(Interrupted, BakingLeavesNothing) {
     const Folder folder;
-    // Noise is the cone map's worst: no texel is far below its neighbours' cones.
-    ImageF noise(1536, 1536, 1);
-    std::mt19937 random(7);
-    for (float& h : noise.texels) h = static_cast<float>(random() & 0xffff) / 65535.0f;
-    write_png_16(folder.path() / "noise.png", noise, FirstRow::bottom);
+    write_noise(folder.path() / "noise.png", 1536);
     fs::create_directories(folder / "out");
     for (const double cpu : {0.1, 0.5}) {
         SCOPED_TRACE(cpu);
         Program program({"bake", "--height", folder / "noise.png", "--map", "cone", "--no-cache", "--out", folder / "out/cone.exr"});
+        interrupt_after(program, cpu, SIGINT);
+        EXPECT_TRUE(files_below(folder / "out").empty());
+    }
+}
+
+TEST(Interrupted, BakingOnADeviceLeavesNothing) {
+    if (!has_device()) GTEST_SKIP() << "no Vulkan device";
+    const Folder folder;
+    write_noise(folder.path() / "noise.png", 1536);
+    fs::create_directories(folder / "out");
+    for (const double cpu : {0.1, 0.9}) {
+        SCOPED_TRACE(cpu);
+        Program program({"bake", "--height", folder / "noise.png", "--map", "distance", "--device", "gpu", "--out", folder / "out/distance.exr"});
         interrupt_after(program, cpu, SIGINT);
         EXPECT_TRUE(files_below(folder / "out").empty());
     }
