@@ -77,6 +77,10 @@ FurPainter::~FurPainter() = default;
 
 std::string FurPainter::device_name() const { return strands_ ? strands_->device_name() : shells_->device_name(); }
 
+void FurPainter::expect(const FurView& view, std::size_t strands) {
+    if (strands_) strands_->expect(view, strands);
+}
+
 FurPainter::Loaded FurPainter::load(GrownFur& fur, const Coat& coat, const FurForces& forces, const FurView& view, int threads) {
     Loaded result;
     fur_ = &fur;

@@ -25,6 +25,9 @@ public:
 
     std::string device_name() const;
 
+    // Makes room for pictures like `view` of about so many strands, where that saves time later. Throws Error.
+    void expect(const FurView& view, std::size_t strands);
+
     struct Loaded {
         double grid_ms = 0;
         std::size_t layer_faces = 0;  // of the mesh that light meets, and that shells push out

@@ -19,8 +19,17 @@ void write_fur_picture(const std::filesystem::path& png, const Image8& picture) 
 FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& settings, const Progress& progress) {
     FurPicture result;
     result.mode = settings.mode;
+    FurView view;
+    view.camera = view_of_sphere({0, 0, 0}, 1 + settings.coat.length * 0.6, settings.width, settings.height);
+    view.layers = settings.layers > 0 ? settings.layers : layers_for(settings.mode, view.camera, settings.coat);
+    view.passes = 1;
     // The device starts while the file is read.
-    auto starting = std::async(std::launch::async, [&] { return std::make_unique<FurPainter>(settings.mode, settings.device); });
+    auto starting = std::async(std::launch::async, [&] {
+        auto painter = std::make_unique<FurPainter>(settings.mode, settings.device);
+        // The count of roots comes within a few hundredths of what is asked for.
+        painter->expect(view, static_cast<std::size_t>(static_cast<double>(settings.coat.strands) * 1.05));
+        return painter;
+    });
     report(progress, "loading " + file.filename().string(), 0);
     const Timer loading;
     Mesh mesh = load_mesh(file, settings.threads);
@@ -35,10 +44,6 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
     const Roots& roots = fur.roots;
     result.ms.roots = fur.roots_ms;
 
-    FurView view;
-    view.camera = view_of_sphere({0, 0, 0}, 1 + settings.coat.length * 0.6, settings.width, settings.height);
-    view.layers = settings.layers > 0 ? settings.layers : layers_for(settings.mode, view.camera, settings.coat);
-    view.passes = 1;
     const FurPainter::Loaded loaded = painter->load(fur, settings.coat, settings.forces, view, settings.threads);
     result.ms.grid = loaded.grid_ms;
     result.ms.prepare = timer.ms() - result.ms.roots - result.ms.grid;

@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 namespace relievo {
 
@@ -65,8 +66,9 @@ struct StrandRenderer::State {
     vk::raii::BufferView places_view = nullptr, natures_view = nullptr, points_view = nullptr, pushes_view = nullptr;  // the last is nothing where no force bends strands
     std::size_t vertex_count = 0;
     std::uint32_t index_count = 0;
-    int points_pieces = 0; // for which `points` has room; 0: none
-    int grown_pieces = 0;  // of the points that stand in their buffer; 0: none
+    std::size_t points_room = 0;  // points that their buffer holds
+    int grown_pieces = 0;         // of the points that stand in their buffer; 0: none
+    FurFrames empty;              // frames of zeros, made beforehand
     CoatUniforms coat{};
     Vec3d low, high;       // of all that strands may reach
     std::optional<FurMatrices> lit_by;  // what the light's picture was drawn with
@@ -169,24 +171,29 @@ struct StrandRenderer::State {
         high = Vec3d(until + Vec3f(farthest));
         coat = coat_uniforms(c, model.spacing);
         coat.strands = static_cast<int>(model.strands->places.size());
-        grown_pieces = points_pieces = 0;
+        grown_pieces = 0;
+    }
+
+    void make_points(std::size_t strands, int pieces) {
+        const std::size_t wanted = (static_cast<std::size_t>(pieces) + 1) * strands;
+        if (wanted <= points_room) return;
+        const auto& limits = device.physical().getProperties().limits;
+        if (wanted > limits.maxTexelBufferElements || wanted * 16 > limits.maxStorageBufferRange)
+            throw Error("plot", "fur", device.info().name + " has no room for " + std::to_string(strands) + " strands of " + std::to_string(pieces) + " pieces", "grow fewer (--density), or take fewer --layers");
+        points_room = 0;
+        points_view = nullptr;
+        points = gpu::make_buffer(device, wanted * 16, vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformTexelBuffer);
+        points_view = texel_view(points, vk::Format::eR32G32B32A32Sfloat);
+        points_room = wanted;
+        grown_pieces = 0;
     }
 
     // Points and picture of the sizes the view asks for.
     void make_room(const FurView& view) {
         const vk::Extent2D extent{static_cast<std::uint32_t>(view.camera.width), static_cast<std::uint32_t>(view.camera.height)};
-        const bool points_fit = points_pieces == view.layers;
-        if (!points_fit) {
-            const std::size_t wanted = (static_cast<std::size_t>(view.layers) + 1) * static_cast<std::size_t>(coat.strands);
-            const auto& limits = device.physical().getProperties().limits;
-            if (wanted > limits.maxTexelBufferElements || wanted * 16 > limits.maxStorageBufferRange)
-                throw Error("plot", "fur", device.info().name + " has no room for " + std::to_string(coat.strands) + " strands of " + std::to_string(view.layers) + " pieces", "grow fewer (--density), or take fewer --layers");
-            points_view = nullptr;
-            points = gpu::make_buffer(device, wanted * 16, vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformTexelBuffer);
-            points_view = texel_view(points, vk::Format::eR32G32B32A32Sfloat);
-            coat.pieces = points_pieces = view.layers;
-            grown_pieces = 0;
-        }
+        make_points(static_cast<std::size_t>(coat.strands), view.layers);
+        if (coat.pieces != view.layers) grown_pieces = 0;
+        coat.pieces = view.layers;
         if (!target || target->extent != extent) {
             using Usage = vk::ImageUsageFlagBits;
             const std::size_t pixels = std::size_t{extent.width} * extent.height;
@@ -356,12 +363,23 @@ StrandRenderer::StrandRenderer(const std::string& device, bool validation)
     load({.mesh = &triangle, .comb = &comb, .strands = &strand});
     // No power of two among the sides of the picture, the strands and their points: llvmpipe has other programs for those.
     draw({.camera = view_of_sphere({0, 0, 0}, 1, 24, 20), .layers = 2, .passes = 1});
-    state_->index_count = 0;
 }
 StrandRenderer::~StrandRenderer() = default;
 
 std::string StrandRenderer::device_name() const { return state_->device.info().name; }
 std::vector<std::string> StrandRenderer::validation_messages() const { return state_->device.validation_messages(); }
+
+void StrandRenderer::expect(const FurView& view, std::size_t strands) {
+    State& s = *state_;
+    FurView once = view;
+    once.passes = 1;
+    draw(once);  // the three strands of the constructor: the device's own images are touched by drawing only
+    gpu::vulkan_errors_as("draw", "fur", [&] { s.make_points(strands, view.layers); });
+    s.empty.colour = ImageF(view.camera.width, view.camera.height, 3);
+    s.empty.coverage = ImageF(view.camera.width, view.camera.height, 1);
+    std::memset(s.points.mapped, 0, s.points.size);
+    std::memset(s.target->seen.mapped, 0, s.target->seen.size);
+}
 
 void StrandRenderer::load(const StrandModel& model) {
     gpu::vulkan_errors_as("load", model.mesh->name, [&] { state_->load(model); });
@@ -393,9 +411,11 @@ FurFrames StrandRenderer::draw(const FurView& view) {
         s.describe();
         set_view(s.coat, view);
         s.coat.thinnest = view.passes == 1 ? 1.0f : 0.3f;
-        FurFrames frames;
-        frames.colour = ImageF(camera.width, camera.height, 3);
-        frames.coverage = ImageF(camera.width, camera.height, 1);
+        FurFrames frames = std::exchange(s.empty, {});
+        if (frames.colour.width != camera.width || frames.colour.height != camera.height) {
+            frames.colour = ImageF(camera.width, camera.height, 3);
+            frames.coverage = ImageF(camera.width, camera.height, 1);
+        }
         for (int pass = 0; pass < view.passes; ++pass) {
             const auto start = std::chrono::steady_clock::now();
             frames.stages.push_back(s.draw_pass(view, pass));

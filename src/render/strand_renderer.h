@@ -33,6 +33,10 @@ public:
     std::string device_name() const;
     std::vector<std::string> validation_messages() const;
 
+    // Makes room for pictures like this one of a model of about so many strands, and touches it: the first picture then does not wait for
+    // memory, which takes systems about as long to hand out as fur takes to be plotted. Throws Error.
+    void expect(const FurView& view, std::size_t strands);
+
     // Copies what a model needs to the device; the model before is forgotten. The model's own data may go afterwards.
     void load(const StrandModel& model);
 

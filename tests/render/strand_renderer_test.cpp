@@ -106,6 +106,27 @@ TEST_F(StrandsOnGpu, CoversTheBallAndARingAroundIt) {
     for (const float c : f.colour.texels) ASSERT_TRUE(std::isfinite(c) && c >= 0);
 }
 
+// Room made beforehand, whether it fits or not, changes no picture, and the second is no sum of two.
+TEST_F(StrandsOnGpu, ExpectingAPictureDoesNotChangeIt) {
+    const Mesh mesh = ball(2000);
+    const FurView view{.camera = view_of_sphere({0, 0, 0}, 1.25, 240, 200), .layers = 3, .passes = 2};
+    grow(mesh, upright);
+    const FurFrames plain = renderer->draw(view);
+    for (const std::size_t strands : {std::size_t{1}, std::size_t{7000}, std::size_t{50000}})
+        for (const int width : {240, 100, 400}) {
+            FurView expected = view;
+            expected.camera.width = width;
+            expected.layers = 5;
+            renderer->expect(expected, strands);
+            grow(mesh, upright);
+            for (int time = 0; time < 2; ++time) {
+                const FurFrames again = renderer->draw(view);
+                ASSERT_EQ(again.colour.texels, plain.colour.texels) << strands << ' ' << width << ' ' << time;
+                ASSERT_EQ(again.coverage.texels, plain.coverage.texels);
+            }
+        }
+}
+
 TEST_F(StrandsOnGpu, IsTheSameEveryTimeAndDependsOnItsCoat) {
     const Mesh mesh = ball(2000);
     const FurView view{.camera = view_of_sphere({0, 0, 0}, 1.25, 160, 120), .layers = 8, .passes = 1};
