@@ -216,7 +216,8 @@ private:
         unsigned open = asked;
         if (metric_.step == 0.0f && nearest2 >= std::min(metric_.u2, metric_.v2)) {
             const Sheet sheet = sheet_of(n, low_x, high_x, low_y, high_y, std::sqrt(nearest2));
-            for (unsigned left = asked; left != 0; left &= left - 1) {
+            // Above a rough node the plane is nowhere much lower than the highest texel.
+            for (unsigned left = sheet.height < top ? asked : 0; left != 0; left &= left - 1) {
                 const int g = std::countr_zero(left);
                 if (!rises_above(sheet, g)) open &= ~(1u << g);
             }
