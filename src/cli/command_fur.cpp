@@ -3,6 +3,7 @@
 #include "cli/classic_options.h"
 #include "cli/growth_options.h"
 #include "cli/progress_display.h"
+#include "cli/steadiness_report.h"
 #include "core/error.h"
 #include "core/suggest.h"
 #include "pipeline/fur_picture.h"
@@ -52,6 +53,20 @@ void set_knob(Coat& coat, const std::string& setting) {
     throw UsageError(unknown_word("setting", id, known));
 }
 
+std::vector<int> pass_counts(const std::string& text) {
+    std::vector<int> counts;
+    const char* at = text.data();
+    const char* const last = at + text.size();
+    while (true) {
+        int count = 0;
+        const auto [end, fault] = std::from_chars(at, last, count);
+        if (fault != std::errc{} || count < 1 || count > 1024 || (end != last && *end != ',')) throw UsageError("--passes takes numbers from 1 to 1024, as in 1,2,4,8,16, not \"" + text + "\"");
+        counts.push_back(count);
+        if (end == last) return counts;
+        at = end + 1;
+    }
+}
+
 double rounded(double v) { return std::round(v * 1e4) / 1e4; }
 // JSON has no infinity: where a twentieth of the surface is bare, the ratio is null.
 Json number(double v) { return std::isfinite(v) ? Json(rounded(v)) : Json(); }
@@ -69,10 +84,7 @@ Json fur_json(const FurPicture& p, const std::string& preset, const std::string&
         report["stages_ms"][i == 0 ? "first" : "last"] = {{"light", rounded(f.light)}, {"skin", rounded(f.skin)}, {"grow", rounded(f.grow)}, {"plot", rounded(f.plot)}, {"shade", rounded(f.shade)}, {"copy", rounded(f.copy)}};
     }
     if (p.steadiness)
-        report["turntable"] = {{"change", rounded(p.steadiness->change)},
-                               {"reference_change", rounded(p.steadiness->reference_change)},
-                               {"error_change", rounded(p.steadiness->error_change)},
-                               {"worst_over_median", rounded(p.steadiness->worst_over_median)}};
+        report["steadiness"] = steadiness_json(*p.steadiness);
     if (p.light) report["light"] = classic_report(p);
     std::string_view mode;
     for (const FurMode& m : fur_modes)
@@ -116,7 +128,7 @@ std::string knob_list() {
 
 void add_fur_command(CLI::App& app) {
     struct Options {
-        std::string in, out, reference, mode = "strands", preset, layers = "auto", device;
+        std::string in, out, reference, mode = "strands", preset, layers = "auto", passes = "16", device;
         std::vector<std::string> set;
         GrowthOptions growth;
         double height = 0, density = 0;
@@ -138,7 +150,7 @@ void add_fur_command(CLI::App& app) {
     verb->add_option("--density", o->density, "strands, in percent of the preset's (default 100); in mode classic, in percent of the fur map's texels (default 20)")->check(CLI::Range(0.1, 2000.0));
     verb->add_option("--set", o->set, "NAME=VALUE, a setting of the coat; may be repeated")->take_all();
     verb->add_option("--size", o->size, "of the picture, pixels across and down")->expected(2);
-    verb->add_option("--passes", o->fur.passes, "frames averaged into the picture, each with its samples elsewhere")->check(CLI::Range(1, 1024))->capture_default_str();
+    verb->add_option("--passes", o->passes, "frames averaged into the picture, 1 to 1024, each with its samples elsewhere. Several, as 1,2,4,8,16: of the last, and --turntable or --animate with --reference tells how steady each is")->capture_default_str();
     add_classic_options(*verb, o->classic);
     verb->add_option("--device", o->device, "that draws: software, or part of a device's name (relievo list devices)");
     verb->add_option("--threads", o->fur.threads, "0: all cores")->check(CLI::Range(0, 1024))->capture_default_str();
@@ -155,6 +167,8 @@ void add_fur_command(CLI::App& app) {
                  "  relievo fur bunny.obj --mode classic --layers 8 --height 2 --density 10 --out 2009.png\n"
                  "  relievo fur spot.obj --grow-where mask@bald.png --grow-where up=-0.6..0.2 --out spot.png\n"
                  "  relievo fur bunny.obj --preset fox --wind 2 0 0.5 --animate 50 --out windy.png\n"
+                 "  relievo fur bunny.obj --size 240 150 --turntable 6 --turn 6 --passes 1,2,4,8,16 --samples 16 --reference beside.png\n"
+                 "  relievo fur bunny.obj --size 240 150 --turntable 24 --dolly 1:3 --reference beside.png --json\n"
                  "  relievo fur bunny.obj --mode lapped --out lapped.png\n"
                  "  relievo fur bunny.obj --preset fox --density 20 --export fox.hair --export fox.ply\n"
                  "  relievo fur cow.obj --layers 32 --size 640 400 --passes 1 --out quick.png\n\n" +
@@ -181,20 +195,25 @@ void add_fur_command(CLI::App& app) {
         s.width = o->size[0];
         s.height = o->size[1];
         if (s.width < 16 || s.height < 16 || s.width > 16384 || s.height > 16384) throw UsageError("--size takes 16 to 16384 pixels a side");
+        const std::vector<int> passes = pass_counts(o->passes);
+        s.passes = passes.back();
+        s.film.passes = passes;
         s.device = o->device;
         s.measure = o->json;
-        if (!o->reference.empty()) s.reference_samples = o->samples;
+        if (!o->reference.empty()) s.reference_samples = s.film.samples = o->samples;
         s.lengths = length_rules_of(o->growth);
-        take_motion(o->growth, o->out, s);
+        take_forces(o->growth, s);
         std::string words = o->in + ' ' + o->mode + ' ' + std::string(preset.id) + " layers " + o->layers + " size " + std::to_string(s.width) + ' ' + std::to_string(s.height) + " passes " + std::to_string(s.passes);
         for (const CoatKnob& k : coat_knobs()) words += ' ' + std::string(k.id) + ' ' + std::to_string(s.coat.*k.member);
         for (const std::string& rule : o->growth.where) words += ' ' + rule;
         for (const double force : {s.forces.gravity.y, s.forces.wind.x, s.forces.wind.y, s.forces.wind.z}) words += ' ' + std::to_string(force);
         std::error_code none;
         if (const auto bytes = std::filesystem::file_size(o->in, none); !none) words += " bytes " + std::to_string(bytes);
-        take_turntable(o->growth, o->out, words, s);
-        if ((classic || lapped) && (!s.lengths.empty() || length(s.forces.gravity) > 0 || length(s.forces.wind) > 0 || s.film.frames > 0 || s.turntable.frames > 0))
+        take_film(o->growth, o->out, words, s);
+        if ((classic || lapped) && (!s.lengths.empty() || length(s.forces.gravity) > 0 || length(s.forces.wind) > 0 || s.film.frames > 0))
             throw UsageError("--grow-where, --gravity, --wind, --animate and --turntable are for strands, not for --mode " + o->mode);
+        if (passes.size() > 1 && (s.film.frames == 0 || s.film.samples == 0))
+            throw UsageError("several numbers of --passes are told apart by how steady they are: that takes --turntable or --animate, and --reference");
         if (!o->growth.exported.empty()) {
             if (o->mode != "strands") throw UsageError("--export writes strands, which --mode " + o->mode + " has none of");
             export_as_asked(o->in, o->growth, s, o->quiet);
@@ -209,6 +228,8 @@ void add_fur_command(CLI::App& app) {
             for (const std::string& note : p.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
         if (o->json)
             std::printf("%s\n", fur_json(p, std::string(preset.id), o->out).dump(2).c_str());
+        else if (p.steadiness)
+            std::fputs(steadiness_text(*p.steadiness).c_str(), stdout);
         else if (!o->quiet)
             std::fprintf(stderr, "%s: %zu strands on %zu faces, %d layers, first frame after %.0f ms, then %.0f ms each\n", o->out.c_str(), p.strands, p.faces, p.layers,
                          p.ms.first_frame, p.ms.frame_median);

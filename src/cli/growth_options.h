@@ -3,6 +3,7 @@
 
 #include "pipeline/fur_picture.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ struct GrowthOptions {
     std::vector<std::string> exported;  // files
     int pieces = 8, atlas = 0;
     int turntable = 0;
-    double turn = 360;
+    std::optional<double> turn;  // nothing: once around, or not at all where the camera moves away
+    std::string dolly;
     double gravity = 0, gusts = 0.6, spin = 0;
     std::vector<double> wind;
     int frames = 0;
@@ -28,11 +30,12 @@ void add_growth_options(CLI::App& verb, GrowthOptions& options);
 // The rules that --grow-where asks for. Throws UsageError.
 std::vector<LengthRule> length_rules_of(const GrowthOptions& options);
 
-// The forces that --gravity and --wind ask for, and the frames of --animate, written beside `out` with their number before its ending. Throws UsageError.
-void take_motion(const GrowthOptions& options, const std::string& out, FurSettings& settings);
+// The forces that --gravity and --wind ask for.
+void take_forces(const GrowthOptions& options, FurSettings& settings);
 
-// What --turntable asks for, its frames named alike; `words` name all that they depend on, and are kept beside them. Throws UsageError and Error.
-void take_turntable(const GrowthOptions& options, const std::string& out, const std::string& words, FurSettings& settings);
+// The frames that --animate or --turntable asks for, written beside `out` with their number before its ending; those of a turntable are kept with
+// `words`, which name all that they depend on, beside them. Throws UsageError and Error.
+void take_film(const GrowthOptions& options, const std::string& out, const std::string& words, FurSettings& settings);
 
 // What --grow-where knows, a line each.
 std::string length_rule_list();

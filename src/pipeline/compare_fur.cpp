@@ -14,9 +14,6 @@ namespace relievo {
 
 namespace {
 
-// As fur_picture's: so many straight pieces lie within a tenth of a pixel of their curve at these sizes.
-constexpr int reference_pieces = 8;
-
 struct Truth {
     FurFrames frames;
     std::string picture;

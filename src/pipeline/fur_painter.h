@@ -24,6 +24,7 @@ public:
     ~FurPainter();
 
     std::string device_name() const;
+    FurKind kind() const { return kind_; }
 
     // Makes room for pictures like `view` of about so many strands, where that saves time later. Throws Error.
     void expect(const FurView& view, std::size_t strands);

@@ -44,7 +44,7 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
     const Roots& roots = fur.roots;
     result.ms.roots = fur.roots_ms;
 
-    const FurPainter::Loaded loaded = painter->load(fur, settings.coat, settings.forces, view, settings.threads);
+    const FurPainter::Loaded loaded = painter->load(fur, settings.coat, settings.forces, nearest_view(view, settings.film, settings.mode, settings.coat, settings.layers == 0), settings.threads);
     result.ms.grid = loaded.grid_ms;
     result.ms.prepare = timer.ms() - result.ms.roots - result.ms.grid;
     report(progress, "drawing", 0.5);
@@ -64,23 +64,18 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
         frames = painter->draw(view);
         result.picture = shown_fur(frames);
     }
-    StrandCurves curves;
     if (settings.reference_samples > 0) {
         // On the mesh itself: what its simplification changes counts as an error of the layers.
         const Timer tracing;
-        curves = curves_of(fur, settings.coat, 8, settings.forces, settings.threads);
+        const StrandCurves curves = curves_of(fur, settings.coat, reference_pieces, settings.forces, settings.threads);
         const FurFrames reference = trace_fur(curves, grown, settings.coat, view, settings.reference_samples, settings.threads, progress, fur.lengths);
         result.score = fur_score(frames, reference, settings.threads);
         result.score->reference_ms = tracing.ms();
         result.score->samples = settings.reference_samples;
         result.beside = side_by_side(result.picture, shown_fur(reference));
     }
-    if (settings.turntable.frames > 0)
-        result.steadiness = turn_fur(*painter, fur, settings.coat, view, settings.turntable, settings.reference_samples > 0 ? &curves : nullptr, settings.reference_samples, settings.threads, progress);
-    if (settings.film.frames > 0) {
-        report(progress, "filming", 0.7);
-        film_fur(*painter, view, settings.forces, settings.film, settings.threads);
-    }
+    if (settings.film.frames > 0)
+        result.steadiness = film_fur({.painter = *painter, .fur = fur, .coat = settings.coat, .forces = settings.forces, .view = view, .layers_adapt = settings.layers == 0}, settings.film, settings.threads, progress);
     if (!frames.stages.empty()) result.stages.push_back(frames.stages.back());
     std::ranges::sort(frames.frame_ms);
     result.ms.frame_median = frames.frame_ms[frames.frame_ms.size() / 2];

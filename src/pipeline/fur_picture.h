@@ -10,7 +10,7 @@
 #include "pipeline/fur_film.h"
 #include "fur/fur_modes.h"
 #include "pipeline/fur_score.h"
-#include "pipeline/fur_turntable.h"
+#include "pipeline/fur_steadiness.h"
 #include "render/fur_frames.h"
 #include "render/layers_renderer.h"
 
@@ -27,8 +27,7 @@ struct FurSettings {
     Coat coat;              // as the preset says, changed by options
     std::vector<LengthRule> lengths;  // where fur is shorter; masks are read here
     FurForces forces;       // that hold the fur in the picture, in the space of the mesh
-    FurFilm film;           // drawn after the picture, with as many passes, under the same forces
-    FurTurntable turntable; // drawn after that; with reference_samples each of its frames is compared
+    FurFilm film;           // drawn after the picture, under the same forces
     int layers = 0;         // 0: as many as the length of the fur in the picture asks for
     int width = 1280, height = 800;
     int passes = 16;        // averaged into the picture
@@ -50,7 +49,7 @@ struct FurPicture {
     std::size_t layer_faces = 0;  // of the mesh that was pushed out
     std::optional<Evenness> evenness;
     std::optional<FurScore> score;
-    std::optional<FurSteadiness> steadiness;  // of the turntable, where it was compared
+    std::optional<FurSteadiness> steadiness;  // of the film, where it was compared
     std::optional<LayersLight> light;  // of mode classic
     std::vector<FurStages> stages;  // of the first frame and of the last; empty where they are not told apart
     FurTimes ms;  // first_frame: from the loaded mesh to the first whole picture in memory, all steps in between included

@@ -55,9 +55,13 @@ GrownFur grown_fur(Mesh mesh, const Coat& coat, std::span<const LengthRule> rule
     return fur;
 }
 
-StrandCurves curves_of(GrownFur& fur, const Coat& coat, int pieces, const FurForces& forces, int threads) {
+std::vector<Vec3f> comb_of(GrownFur& fur, const Coat& coat, int threads) {
     if (fur.mesh.normals.empty()) fur.mesh.normals = continuous_normals(fur.mesh, NormalMode::angle, threads);
-    const std::vector<Vec3f> comb = combed(fur.mesh, mean_lean(coat), threads);
+    return combed(fur.mesh, mean_lean(coat), threads);
+}
+
+StrandCurves curves_of(GrownFur& fur, const Coat& coat, int pieces, const FurForces& forces, int threads) {
+    const std::vector<Vec3f> comb = comb_of(fur, coat, threads);
     std::vector<Vec3f> pushes;
     if (length(forces.gravity) > 0 || length(forces.wind) > 0) pushes = pushes_of(settled({fur.mesh, comb, fur.lengths, coat}, forces, threads));
     return strand_curves(fur.mesh, comb, fur.roots, coat, fur.spacing, pieces, threads, {.lengths = fur.lengths, .pushes = pushes});

@@ -27,6 +27,12 @@ GrownFur grown_fur(Mesh mesh, const Coat& coat, std::span<const LengthRule> rule
 // Reads the masks that rules name. Throws Error.
 std::vector<LengthRule> with_masks(std::vector<LengthRule> rules);
 
+// Of strands as curves to be traced: so many straight pieces lie within a tenth of a pixel of their curve in pictures of 1280x800.
+inline constexpr int reference_pieces = 8;
+
+// Which way the fur lies at each vertex of its mesh. Gives that its normals.
+std::vector<Vec3f> comb_of(GrownFur& fur, const Coat& coat, int threads = 0);
+
 // The strands of the fur as curves of so many straight pieces, as the forces hold them. Gives the mesh its normals.
 StrandCurves curves_of(GrownFur& fur, const Coat& coat, int pieces, const FurForces& forces = {}, int threads = 0);
 

@@ -98,7 +98,7 @@ FurPicture lapped_picture(const std::filesystem::path& file, const LappedFurSett
     if (s.reference_samples > 0) {
         const Timer tracing;
         GrownFur even = grown_fur(mesh, s.coat, {}, s.threads);
-        const FurFrames reference = trace_fur(curves_of(even, s.coat, 8, {}, s.threads), even.mesh, s.coat, view, s.reference_samples, s.threads, progress);
+        const FurFrames reference = trace_fur(curves_of(even, s.coat, reference_pieces, {}, s.threads), even.mesh, s.coat, view, s.reference_samples, s.threads, progress);
         if (s.fit_light) {
             result.light = fitted_light(*renderer, averaged, reference, s.light);
             frames = renderer->draw(averaged);

@@ -249,7 +249,7 @@ TEST(Fur, TurnsOnATableAndGoesOnWhereItStopped) {
     const auto steadiness = [&](const char* degrees) {
         const Ended ended = run(quick(mesh, {"--turntable", "3", "--turn", degrees, "--samples", "4", "--reference", folder / "beside.png", "--json"}));
         EXPECT_EQ(ended.code, 0) << ended.err;
-        return Json::parse(ended.out, nullptr, false)["report"]["turntable"];
+        return Json::parse(ended.out, nullptr, false)["report"]["steadiness"]["passes"][0];
     };
     const Json slow = steadiness("10.8"), quickly = steadiness("360");
     EXPECT_GT(slow["change"].get<double>(), 0);
@@ -260,6 +260,36 @@ TEST(Fur, TurnsOnATableAndGoesOnWhereItStopped) {
     EXPECT_GE(slow["worst_over_median"].get<double>(), 1);
     EXPECT_EQ(run(quick(mesh, {"--turntable", "3", "--json"})).code, 2);
     EXPECT_EQ(run(quick(mesh, {"--turntable", "3", "--animate", "3", "--out", out})).code, 2);
+}
+
+TEST(Fur, SaysHowSteadyItIsForEachNumberOfPasses) {
+    if (!has_device()) GTEST_SKIP() << "no Vulkan device";
+    const Folder folder;
+    const std::string mesh = tetrahedron_in(folder), beside = folder / "beside.png";
+    const std::vector<std::string> small = {"fur", mesh, "--quiet", "--size", "96", "64", "--density", "2", "--samples", "3", "--reference", beside};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), small.begin(), small.end());
+        return run(more);
+    };
+    const Ended ended = with({"--passes", "1,4", "--turntable", "3", "--turn", "6", "--json"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const Json report = Json::parse(ended.out, nullptr, false)["report"], steadiness = report["steadiness"];
+    EXPECT_EQ(report["passes"], 4);
+    EXPECT_EQ(steadiness["samples"], 3);
+    ASSERT_EQ(steadiness["passes"].size(), 2u);
+    EXPECT_EQ(steadiness["passes"][0]["passes"], 1);
+    // More passes are steadier; the traced strands are the same ones.
+    EXPECT_GT(steadiness["passes"][0]["change"].get<double>(), steadiness["passes"][1]["change"].get<double>());
+    EXPECT_EQ(steadiness["steps"].size(), 2u);
+    EXPECT_EQ(steadiness["steps"][0]["layers"], steadiness["steps"][1]["layers"]);
+    const Ended table = with({"--passes", "1,4", "--turntable", "2", "--dolly", "0.5:2"});
+    ASSERT_EQ(table.code, 0) << table.err;
+    EXPECT_NE(table.out.find("3 rays a pixel"), std::string::npos) << table.out;
+    EXPECT_EQ(std::ranges::count(table.out, '\n'), 4);
+    // In the wind the traced strands move as the pictures do.
+    const Ended windy = with({"--passes", "2", "--animate", "3", "--wind", "3", "0", "0", "--json"});
+    ASSERT_EQ(windy.code, 0) << windy.err;
+    EXPECT_GT(Json::parse(windy.out, nullptr, false)["report"]["steadiness"]["passes"][0]["reference_change"].get<double>(), 0);
 }
 
 TEST(Fur, WindMovesIt) {
@@ -308,6 +338,13 @@ TEST(Fur, RefusesWrongWordsWithAWayOn) {
                  {{"--json", "--mode", "classic", "--grow-where", "up"}, "strands"},
                  {{"--json", "--animate", "3"}, "--out"},
                  {{"--json", "--spin", "1"}, "--animate"},
+                 {{"--json", "--dolly", "1:2"}, "--turntable"},
+                 {{"--out", "x.png", "--turntable", "2", "--dolly", "0.1:2"}, "0.4"},
+                 {{"--out", "x.png", "--turntable", "2", "--dolly", "1-2"}, "NEAR:FAR"},
+                 {{"--out", "x.png", "--turntable", "2", "--spin", "1"}, "--animate"},
+                 {{"--json", "--passes", "1,,2"}, "1,2,4"},
+                 {{"--json", "--passes", "0"}, "1 to 1024"},
+                 {{"--json", "--passes", "1,2"}, "--turntable"},
                  {{"--json", "--wind", "1", "2"}, "wind"},
                  {{"--json", "--height", "80"}, "50"}};
     for (const auto& c : cases) {
