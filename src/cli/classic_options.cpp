@@ -125,6 +125,9 @@ ClassicSettings classic_settings(const ClassicOptions& o, const FurSettings& com
     s.width_px = common.width;
     s.height_px = common.height;
     s.passes = common.passes;
+    s.comb = common.growth.comb;
+    s.tilt = common.coat.tilt;
+    s.bend = common.coat.bend;
     s.device = common.device;
     s.measure = common.measure;
     s.reference_samples = common.reference_samples;
@@ -135,6 +138,7 @@ ClassicSettings classic_settings(const ClassicOptions& o, const FurSettings& com
 LappedFurSettings lapped_settings(const ClassicOptions& o, const FurSettings& common) {
     LappedFurSettings s;
     s.coat = common.coat;
+    s.comb = common.growth.comb;
     s.seed = o.seed;
     s.fit_light = true;
     if (common.layers > 0) s.layers = common.layers;

@@ -166,6 +166,7 @@ void add_fur_command(CLI::App& app) {
                  "  relievo fur bunny.obj --size 640 400 --reference beside.png --samples 32 --json\n"
                  "  relievo fur bunny.obj --mode classic --layers 8 --height 2 --density 10 --out 2009.png\n"
                  "  relievo fur spot.obj --grow-where mask@bald.png --grow-where up=-0.6..0.2 --out spot.png\n"
+                 "  relievo fur spot.obj --comb swirl.png --out combed.png\n"
                  "  relievo fur bunny.obj --preset fox --wind 2 0 0.5 --animate 50 --out windy.png\n"
                  "  relievo fur bunny.obj --size 240 150 --turntable 6 --turn 6 --passes 1,2,4,8,16 --samples 16 --reference beside.png\n"
                  "  relievo fur bunny.obj --size 240 150 --turntable 24 --dolly 1:3 --reference beside.png --json\n"
@@ -201,16 +202,17 @@ void add_fur_command(CLI::App& app) {
         s.device = o->device;
         s.measure = o->json;
         if (!o->reference.empty()) s.reference_samples = s.film.samples = o->samples;
-        s.lengths = length_rules_of(o->growth);
+        s.growth = {.lengths = length_rules_of(o->growth), .comb = comb_paint_of(o->growth)};
         take_forces(o->growth, s);
         std::string words = o->in + ' ' + o->mode + ' ' + std::string(preset.id) + " layers " + o->layers + " size " + std::to_string(s.width) + ' ' + std::to_string(s.height) + " passes " + std::to_string(s.passes);
         for (const CoatKnob& k : coat_knobs()) words += ' ' + std::string(k.id) + ' ' + std::to_string(s.coat.*k.member);
         for (const std::string& rule : o->growth.where) words += ' ' + rule;
+        if (!o->growth.comb.empty()) words += " comb " + o->growth.comb;
         for (const double force : {s.forces.gravity.y, s.forces.wind.x, s.forces.wind.y, s.forces.wind.z}) words += ' ' + std::to_string(force);
         std::error_code none;
         if (const auto bytes = std::filesystem::file_size(o->in, none); !none) words += " bytes " + std::to_string(bytes);
         take_film(o->growth, o->out, words, s);
-        if ((classic || lapped) && (!s.lengths.empty() || length(s.forces.gravity) > 0 || length(s.forces.wind) > 0 || s.film.frames > 0))
+        if ((classic || lapped) && (!s.growth.lengths.empty() || length(s.forces.gravity) > 0 || length(s.forces.wind) > 0 || s.film.frames > 0))
             throw UsageError("--grow-where, --gravity, --wind, --animate and --turntable are for strands, not for --mode " + o->mode);
         if (passes.size() > 1 && (s.film.frames == 0 || s.film.samples == 0))
             throw UsageError("several numbers of --passes are told apart by how steady they are: that takes --turntable or --animate, and --reference");

@@ -18,6 +18,7 @@ namespace relievo {
 
 void add_growth_options(CLI::App& verb, GrowthOptions& options) {
     verb.add_option("--grow-where", options.where, "NAME=FROM..TO@ARGUMENT, a rule of length: bare where NAME is FROM, full length where it is TO; several multiply")->take_all();
+    verb.add_option("--comb", options.comb, "FILE, a picture over the mesh's texture coordinates that combs the fur: a flow map in tangent space, red along u and green along v about 128, with its weight in alpha, or in blue without alpha; or colours: those of the vertices, a direction in space about mid-grey. Where the weight is 0 the fur lies as without");
     verb.add_option("--gravity", options.gravity, "how strongly fur hangs down, in units of earth's gravity, beyond what its comb has of it")->check(CLI::Range(-20.0, 20.0))->capture_default_str();
     verb.add_option("--wind", options.wind, "X Y Z, pull of the wind on the strands, in the same unit")->expected(3);
     verb.add_option("--gusts", options.gusts, "by which share of itself the wind swells and falls in an animation")->check(CLI::Range(0.0, 1.0))->capture_default_str();
@@ -35,6 +36,11 @@ std::vector<LengthRule> length_rules_of(const GrowthOptions& options) {
     std::vector<LengthRule> rules;
     for (const std::string& text : options.where) rules.push_back(length_rule(text));
     return rules;
+}
+
+CombPaint comb_paint_of(const GrowthOptions& options) {
+    if (options.comb == "colours") return {.file = {}, .picture = {}, .colours = true};
+    return {.file = options.comb, .picture = {}, .colours = false};
 }
 
 namespace {
@@ -117,7 +123,7 @@ std::string length_rule_list() {
 }
 
 void export_as_asked(const std::string& mesh, const GrowthOptions& options, const FurSettings& fur, bool quiet) {
-    const FurExport e = export_fur(mesh, options.exported, {.coat = fur.coat, .lengths = fur.lengths, .forces = fur.forces, .pieces = options.pieces, .layers = fur.layers, .atlas = options.atlas, .threads = fur.threads}, progress_display(quiet));
+    const FurExport e = export_fur(mesh, options.exported, {.coat = fur.coat, .growth = fur.growth, .forces = fur.forces, .pieces = options.pieces, .layers = fur.layers, .atlas = options.atlas, .threads = fur.threads}, progress_display(quiet));
     if (quiet) return;
     for (const std::string& file : options.exported)
         if (std::filesystem::path(file).extension() == ".glb")

@@ -15,6 +15,7 @@ namespace relievo {
 
 struct GrowthOptions {
     std::vector<std::string> where;     // rules of length
+    std::string comb;                   // picture, or "colours"
     std::vector<std::string> exported;  // files
     int pieces = 8, atlas = 0;
     int turntable = 0;
@@ -29,6 +30,9 @@ void add_growth_options(CLI::App& verb, GrowthOptions& options);
 
 // The rules that --grow-where asks for. Throws UsageError.
 std::vector<LengthRule> length_rules_of(const GrowthOptions& options);
+
+// What --comb asks for; its picture is not read.
+CombPaint comb_paint_of(const GrowthOptions& options);
 
 // The forces that --gravity and --wind ask for.
 void take_forces(const GrowthOptions& options, FurSettings& settings);

@@ -30,8 +30,8 @@ Vec3f tailward(const Mesh& mesh) {
 
 }  // namespace
 
-std::vector<Vec3f> combed(const Mesh& mesh, float lean, int threads) {
-    assert(mesh.normals.size() == mesh.positions.size());
+std::vector<Vec3f> combed(const Mesh& mesh, float lean, int threads, std::span<const PaintedLean> painted) {
+    assert(mesh.normals.size() == mesh.positions.size() && (painted.empty() || painted.size() == mesh.positions.size()));
     const Vec3f flow = normalize(tailward(mesh) * 0.8f + Vec3f(0, -0.6f, 0));
     std::vector<Vec3f> combs(mesh.positions.size());
     parallel_for(static_cast<int>(combs.size()), 16384, threads, [&](int begin, int end) {
@@ -40,6 +40,10 @@ std::vector<Vec3f> combed(const Mesh& mesh, float lean, int threads) {
             // Full strength from 30 degrees off the flow's own direction.
             const float l = length(d);
             combs[v] = l > 0.5f ? d / l : d * 2.0f;
+            if (painted.empty() || !(painted[v].weight > 0)) continue;
+            // What was interpolated since it was painted may have left the skin.
+            const Vec3f lean_here = painted[v].weighted - n * dot(n, painted[v].weighted);
+            combs[v] = combs[v] * (1 - painted[v].weight) + lean_here;
         }
     });
     if (!(lean > 0)) return combs;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "core/mesh.h"
+#include "fur/painted_comb.h"
 
+#include <span>
 #include <vector>
 
 namespace relievo {
@@ -12,6 +14,7 @@ namespace relievo {
 // the longer horizontal axis (+y is up, as scanners have it). The mesh has unit normals (or none: (0,0,0)).
 // `lean` is the angle from the normal, radians, at which fully combed strands stand in the mean: where a vertex's normal is far from those of
 // its faces, as at the corners of a box, the comb is weaker, so that no strand leans into a face. 0: as if strands had no length.
-std::vector<Vec3f> combed(const Mesh& mesh, float lean, int threads = 0);
+// Where something is painted (empty: nowhere), it takes the flow's place by its weight.
+std::vector<Vec3f> combed(const Mesh& mesh, float lean, int threads = 0, std::span<const PaintedLean> painted = {});
 
 }  // namespace relievo

@@ -15,6 +15,7 @@ Mesh once(const Mesh& mesh) {
     fine.positions = mesh.positions;
     fine.normals = mesh.normals;
     fine.uvs = mesh.uvs;
+    fine.colours = mesh.colours;
     fine.indices.reserve(mesh.indices.size() * 4);
     std::unordered_map<std::uint64_t, std::uint32_t> middles;
     const auto middle = [&](std::uint32_t a, std::uint32_t b) {
@@ -24,6 +25,7 @@ Mesh once(const Mesh& mesh) {
             const Vec3f sum = mesh.normals[a] + mesh.normals[b];
             const float l = length(sum);
             if (!mesh.uvs.empty()) fine.uvs.push_back((mesh.uvs[a] + mesh.uvs[b]) * 0.5f);
+            if (!mesh.colours.empty()) fine.colours.push_back((mesh.colours[a] + mesh.colours[b]) * 0.5f);
             fine.normals.push_back(l > 1e-3f ? sum / l : mesh.normals[std::min(a, b)]);
         }
         return at->second;

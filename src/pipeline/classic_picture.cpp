@@ -3,6 +3,7 @@
 #include "assets/image_file.h"
 #include "assets/mesh_file.h"
 #include "core/error.h"
+#include "fur/carried_values.h"
 #include "fur/map_strands.h"
 #include "mesh/index_order.h"
 #include "mesh/indexing.h"
@@ -114,8 +115,8 @@ void write_fur_map(const std::filesystem::path& file, const DirectionMap& fur, c
     write_png(file, strip, FirstRow::top);
 }
 
-LayersModel classic_model(const ClassicSettings& s, const Mesh& mesh, const DirectionMap& fur, const DirectionMap& colour) {
-    return {.mesh = &mesh, .fur = &fur, .colour = &colour, .addressing = s.addressing, .filtered = s.filtered, .height = s.height, .light = s.light, .skin = s.skin};
+LayersModel classic_model(const ClassicSettings& s, const Mesh& mesh, const DirectionMap& fur, const DirectionMap& colour, const std::vector<Vec3f>* comb) {
+    return {.mesh = &mesh, .fur = &fur, .colour = &colour, .addressing = s.addressing, .comb = comb, .tilt = s.tilt, .bend = s.bend, .filtered = s.filtered, .height = s.height, .light = s.light, .skin = s.skin};
 }
 
 Coat upright_coat(const ClassicSettings& s, std::size_t strands) {
@@ -189,11 +190,16 @@ FurPicture classic_picture(const std::filesystem::path& file, const ClassicSetti
     const Timer timer;
     report(progress, "growing fur", 0.2);
     mesh = in_fur_space(std::move(mesh), s.threads);
-    mesh.uvs.clear();
-    mesh.colours.clear();
     // The thesis' own normals, and the order that draws quickest here.
     mesh.normals = continuous_normals(mesh, NormalMode::distinct, s.threads);
+    const Growth growth = with_pictures({.lengths = {}, .comb = s.comb, .upright = true});
+    std::vector<PaintedLean> painted = painted_on(mesh, growth.comb, s.threads);
+    const Mesh as_painted = painted.empty() ? Mesh{} : mesh;
+    if (!painted.empty()) mesh = carrying(mesh, {}, painted);
+    else mesh.uvs.clear(), mesh.colours.clear();
     mesh = ordered(indexed(std::move(mesh), s.threads), {.threads = s.threads});
+    painted = taken_off(mesh, false, !painted.empty()).painted;
+    const std::vector<Vec3f> comb = upright_but_for(mesh, painted);
     if (mesh.faces() == 0) throw Error("grow fur on", file.filename().string(), "all its faces are collapsed");
     result.ms.prepare = timer.ms();
     const Timer growing;
@@ -202,7 +208,7 @@ FurPicture classic_picture(const std::filesystem::path& file, const ClassicSetti
     result.ms.roots = growing.ms();
     if (!s.fur_map_file.empty()) write_fur_map(s.fur_map_file, fur, nullptr, s.dds_code, s.threads);
     if (!s.tinted_map_file.empty()) write_fur_map(s.tinted_map_file, fur, &colour, s.dds_code, s.threads);
-    renderer->load(classic_model(s, mesh, fur, colour));
+    renderer->load(classic_model(s, mesh, fur, colour, painted.empty() ? nullptr : &comb));
     const FurView view{.camera = view_of_sphere({0, 0, 0}, 1 + static_cast<double>(s.height) * 0.6, s.width_px, s.height_px), .layers = s.layers, .passes = 1};
     FurView averaged = view;
     averaged.passes = s.passes;
@@ -222,8 +228,12 @@ FurPicture classic_picture(const std::filesystem::path& file, const ClassicSetti
     result.strands = grown.roots.roots.size();
     if (s.reference_samples > 0) {
         const Timer tracing;
-        const Coat coat = upright_coat(s, std::max<std::size_t>(strands_on(fur), 1));
-        GrownFur even = grown_fur(mesh, coat, {}, s.threads);
+        Coat coat = upright_coat(s, std::max<std::size_t>(strands_on(fur), 1));
+        if (!painted.empty()) {
+            coat.tilt = s.tilt;
+            coat.bend = s.bend;
+        }
+        GrownFur even = painted.empty() ? grown_fur(mesh, coat, {}, s.threads) : grown_fur(as_painted, coat, growth, s.threads);
         const FurFrames reference = trace_fur(curves_of(even, coat, 4, {}, s.threads), even.mesh, coat, view, s.reference_samples, s.threads, progress);
         if (s.fit_light) {
             result.light = fitted_light(*renderer, averaged, reference, s.light);

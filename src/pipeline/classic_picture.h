@@ -17,6 +17,8 @@ struct ClassicSettings {
     bool filtered = false;
     float height = 0.05f;                // in radii
     int layers = 16;
+    CombPaint comb;                      // where strands lean; the picture is read here
+    float tilt = 0.7f, bend = 0.6f;      // there, as of a coat
     LayersLight light;
     bool fit_light = false;              // to the reference, where there is one
     Vec3f colour{0.5f, 0.4f, 0.3f};      // of the strands where there is no colour map, linear albedo
@@ -49,8 +51,8 @@ LayersLight fitted_light(LayersRenderer& renderer, const FurView& view, const Fu
 // order +x -x +y -y +z -z. With `colour` each texel is tinted by it; else RGB is white. `code` is for DDS. Throws Error.
 void write_fur_map(const std::filesystem::path& file, const DirectionMap& fur, const DirectionMap* colour, DdsCode code, int threads = 0);
 
-// `mesh` is in fur space and has unit normals.
-LayersModel classic_model(const ClassicSettings& settings, const Mesh& mesh, const DirectionMap& fur, const DirectionMap& colour);
+// `mesh` is in fur space and has unit normals; `comb`, where there is one, has a vector for each vertex.
+LayersModel classic_model(const ClassicSettings& settings, const Mesh& mesh, const DirectionMap& fur, const DirectionMap& colour, const std::vector<Vec3f>* comb = nullptr);
 
 // Throws Error.
 FurPicture classic_picture(const std::filesystem::path& mesh, const ClassicSettings& settings, const Progress& progress = {});

@@ -7,7 +7,6 @@
 #include "core/parallel_for.h"
 #include "fur/strand_albedo.h"
 #include "pipeline/fur_shells.h"
-#include "pipeline/grown_fur.h"
 
 namespace relievo {
 
@@ -44,7 +43,7 @@ FurExport export_fur(const std::filesystem::path& mesh, const std::vector<std::s
             throw Error("export fur to", file, "its ending names no format of fur", "known: hair, obj, ply for strands, glb for layers");
     }
     report(progress, "loading " + mesh.filename().string(), 0);
-    GrownFur fur = grown_fur(load_mesh(mesh, settings.threads), settings.coat, with_masks(settings.lengths), settings.threads);
+    GrownFur fur = grown_fur(load_mesh(mesh, settings.threads), settings.coat, with_pictures(settings.growth), settings.threads);
     report(progress, "growing strands", 0.3);
     FurExport result{.strands = fur.roots.roots.size(), .notes = fur.mesh.notes};
     if (lines_wanted) {

@@ -4,7 +4,7 @@
 #include "core/progress.h"
 #include "fur/coat.h"
 #include "fur/fur_motion.h"
-#include "fur/length_rules.h"
+#include "pipeline/grown_fur.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace relievo {
 
 struct FurExportSettings {
     Coat coat;
-    std::vector<LengthRule> lengths;  // where fur is shorter
+    Growth growth;    // where fur is shorter and which way it lies; pictures are read here
     FurForces forces;  // that hold the fur
     int pieces = 8;   // straight ones of each strand, at least 1
     int layers = 0;   // of a .glb; 0: as many as show no gaps

@@ -1,5 +1,6 @@
 #include "pipeline/fur_painter.h"
 
+#include "fur/carried_values.h"
 #include "fur/comb.h"
 #include "fur/refined.h"
 #include "fur/rooted_strands.h"
@@ -45,14 +46,9 @@ struct LayerMesh {
 LayerMesh layer_mesh(const GrownFur& fur, const Coat& coat, const MeshView& view, int threads) {
     // Roots must be found from the layers, and finding them farther off costs time: where faces would be off by more than a fifth of the
     // fur's length, there are more of them. Almost everywhere they are off by less than half of that worst case.
-    Mesh carrier;  // with shares of length for texture coordinates, so that they go through all that is done to layers
-    if (!fur.lengths.empty()) {
-        carrier = fur.mesh;
-        carrier.uvs.clear();
-        carrier.colours.clear();
-        for (const float share : fur.lengths) carrier.uvs.emplace_back(share, 0.0f);
-    }
-    const Mesh& skin = fur.lengths.empty() ? fur.mesh : carrier;
+    const bool carries = !fur.lengths.empty() || !fur.painted.empty();
+    const Mesh carrier = carries ? carrying(fur.mesh, fur.lengths, fur.painted) : Mesh{};
+    const Mesh& skin = carries ? carrier : fur.mesh;
     SimplifiedMesh simpler;
     const std::size_t faces = layer_faces(view);
     const bool many = skin.faces() > faces;
@@ -60,9 +56,9 @@ LayerMesh layer_mesh(const GrownFur& fur, const Coat& coat, const MeshView& view
     LayerMesh layers{.mesh = many ? std::move(simpler.mesh) : skin, .comb = {}, .lengths = {}, .off = simpler.estimated_error};
     layers.mesh.normals = continuous_normals(layers.mesh, NormalMode::angle, threads);
     layers.mesh = refined(std::move(layers.mesh), faces);
-    layers.comb = combed(layers.mesh, mean_lean(coat), threads);
-    if (!fur.lengths.empty())
-        for (const Vec2f& uv : layers.mesh.uvs) layers.lengths.push_back(uv.x);
+    SkinPaint values = taken_off(layers.mesh, !fur.lengths.empty(), !fur.painted.empty());
+    layers.comb = combed(layers.mesh, mean_lean(coat), threads, values.painted);
+    layers.lengths = std::move(values.lengths);
     return layers;
 }
 
@@ -91,7 +87,7 @@ FurPainter::Loaded FurPainter::load(GrownFur& fur, const Coat& coat, const FurFo
     // What simplifies a mesh has one thread: strands get the rest meanwhile.
     auto layering = std::async(std::launch::async, [&grown = std::as_const(fur), &coat, &view, threads] { return layer_mesh(grown, coat, view.camera, threads); });
     if (strands_) {
-        skin_comb_ = combed(fur.mesh, mean_lean(coat), threads);
+        skin_comb_ = comb_of(fur, coat, threads);
         strands_on_skin_ = rooted_strands(fur.mesh, skin_comb_, fur.lengths, fur.roots, threads);
     }
     LayerMesh layers = layering.get();

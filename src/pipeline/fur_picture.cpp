@@ -39,7 +39,7 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
 
     const Timer timer;
     report(progress, "growing fur", 0.2);
-    GrownFur fur = grown_fur(std::move(mesh), settings.coat, with_masks(settings.lengths), settings.threads);
+    GrownFur fur = grown_fur(std::move(mesh), settings.coat, with_pictures(settings.growth), settings.threads);
     const Mesh& grown = fur.mesh;
     const Roots& roots = fur.roots;
     result.ms.roots = fur.roots_ms;

@@ -6,7 +6,6 @@
 #include "fur/coat.h"
 #include "fur/evenness.h"
 #include "fur/fur_motion.h"
-#include "fur/length_rules.h"
 #include "pipeline/fur_film.h"
 #include "fur/fur_modes.h"
 #include "pipeline/fur_score.h"
@@ -25,7 +24,7 @@ struct FurSettings {
     FurKind mode = FurKind::strands;  // or shells
     std::string preset;     // empty: the first
     Coat coat;              // as the preset says, changed by options
-    std::vector<LengthRule> lengths;  // where fur is shorter; masks are read here
+    Growth growth;          // where fur is shorter and which way it lies; pictures are read here
     FurForces forces;       // that hold the fur in the picture, in the space of the mesh
     FurFilm film;           // drawn after the picture, under the same forces
     int layers = 0;         // 0: as many as the length of the fur in the picture asks for

@@ -1,5 +1,6 @@
 #include "pipeline/fur_shells.h"
 
+#include "fur/carried_values.h"
 #include "fur/comb.h"
 #include "fur/shell_texture.h"
 #include "fur/strand_albedo.h"
@@ -16,16 +17,16 @@ namespace relievo {
 namespace {
 
 // A strand at every vertex, without what sets single strands apart: where layers go.
-StrandCurves pushed_out(const Mesh& mesh, Coat coat, const std::vector<float>& lengths, const FurForces& forces, int layers, int threads) {
+StrandCurves pushed_out(const Mesh& mesh, Coat coat, const SkinPaint& values, const FurForces& forces, int layers, int threads) {
     Roots vertices;
     std::vector<std::uint32_t> face(mesh.positions.size(), 0);
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) face[mesh.indices[i]] = static_cast<std::uint32_t>(i / 3);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) vertices.roots.push_back({mesh.positions[v], face[v]});
     coat.spread = coat.length_variation = coat.curl_radius = coat.guard_hairs = 0;
-    const std::vector<Vec3f> comb = combed(mesh, mean_lean(coat), threads);
+    const std::vector<Vec3f> comb = combed(mesh, mean_lean(coat), threads, values.painted);
     std::vector<Vec3f> pushes;
-    if (length(forces.gravity) > 0 || length(forces.wind) > 0) pushes = pushes_of(settled({mesh, comb, lengths, coat}, forces, threads));
-    return strand_curves(mesh, comb, vertices, coat, 0, 2 * layers, threads, {.lengths = lengths, .pushes = pushes});
+    if (length(forces.gravity) > 0 || length(forces.wind) > 0) pushes = pushes_of(settled({mesh, comb, values.lengths, coat}, forces, threads));
+    return strand_curves(mesh, comb, vertices, coat, 0, 2 * layers, threads, {.lengths = values.lengths, .pushes = pushes});
 }
 
 Vec3f shade_at(const Coat& coat, double level) {
@@ -41,11 +42,12 @@ Vec3f shade_at(const Coat& coat, double level) {
 
 FurShells fur_shells(GrownFur& fur, const Coat& coat, const FurForces& forces, const ShellSettings& s) {
     FurShells shells;
-    // Shares of length travel as texture coordinates, which only the atlas will need.
-    Mesh skin = fur.mesh;
-    skin.uvs.clear();
-    skin.colours.clear();
-    for (const float share : fur.lengths) skin.uvs.emplace_back(share, 0.0f);
+    Mesh skin = carrying(fur.mesh, fur.lengths, fur.painted);
+    if (fur.lengths.empty() && fur.painted.empty()) {
+        // Only the atlas will need texture coordinates: its own.
+        skin.uvs.clear();
+        skin.colours.clear();
+    }
     double off = 0;
     if (skin.faces() > s.faces) {
         SimplifiedMesh simpler = simplified(skin, {.faces = s.faces}, s.threads);
@@ -53,10 +55,7 @@ FurShells fur_shells(GrownFur& fur, const Coat& coat, const FurForces& forces, c
         off = simpler.estimated_error;
     }
     skin.normals = continuous_normals(skin, NormalMode::angle, s.threads);
-    std::vector<float> lengths;
-    if (!fur.lengths.empty())
-        for (const Vec2f& uv : skin.uvs) lengths.push_back(uv.x);
-    skin.uvs.clear();
+    const SkinPaint values = taken_off(skin, !fur.lengths.empty(), !fur.painted.empty());
 
     int size = s.atlas > 0 ? s.atlas : 2048;
     ChartAtlas atlas = chart_atlas(skin, size, s.threads);
@@ -71,7 +70,7 @@ FurShells fur_shells(GrownFur& fur, const Coat& coat, const FurForces& forces, c
     // Layers two thicknesses apart hang together from most directions; 32 are what viewers draw at ease.
     const int layers = s.layers > 0 ? s.layers : std::clamp(static_cast<int>(std::ceil(static_cast<double>(coat.length) / (2 * thickness))), 12, 32);
     ShellTexture texture = shell_texture(atlas, fur.mesh, fur.roots, coat, fur.spacing, off, s.threads);
-    const StrandCurves out = pushed_out(skin, coat, lengths, forces, layers, s.threads);
+    const StrandCurves out = pushed_out(skin, coat, values, forces, layers, s.threads);
 
     ShellScene& scene = shells.scene;
     scene.name = fur.mesh.name;

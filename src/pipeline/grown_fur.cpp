@@ -14,13 +14,23 @@
 
 namespace relievo {
 
-std::vector<LengthRule> with_masks(std::vector<LengthRule> rules) {
-    for (LengthRule& r : rules)
+Growth with_pictures(Growth growth) {
+    for (LengthRule& r : growth.lengths)
         if (!r.file.empty()) r.mask = std::make_shared<const ImageF>(read_image(r.file, FirstRow::bottom));
-    return rules;
+    if (!growth.comb.file.empty()) growth.comb.picture = std::make_shared<const ImageF>(read_image(growth.comb.file, FirstRow::bottom));
+    return growth;
 }
 
-GrownFur grown_fur(Mesh mesh, const Coat& coat, std::span<const LengthRule> rules, int threads) {
+std::vector<PaintedLean> painted_on(Mesh& mesh, const CombPaint& comb, int threads) {
+    if (comb.empty()) return {};
+    if (mesh.normals.empty()) mesh.normals = continuous_normals(mesh, NormalMode::angle, threads);
+    std::vector<PaintedLean> painted = painted_leans(mesh, comb);
+    if (painted.empty()) mesh.notes.emplace_back("The painted comb has no weight anywhere on the mesh: the fur lies as it would without.");
+    return painted;
+}
+
+GrownFur grown_fur(Mesh mesh, const Coat& coat, const Growth& growth, int threads) {
+    const std::vector<LengthRule>& rules = growth.lengths;
     GrownFur fur;
     FurSpace space = moved_into_fur_space(std::move(mesh), threads);
     fur.mesh = std::move(space.mesh);
@@ -50,6 +60,8 @@ GrownFur grown_fur(Mesh mesh, const Coat& coat, std::span<const LengthRule> rule
         fur.bare = all - fur.roots.roots.size();
         if (fur.roots.roots.empty()) throw Error("grow fur on", fur.mesh.name, "the rules leave all of it bare", "turn one round (FROM..TO) or leave it out");
     }
+    fur.upright = growth.upright;
+    fur.painted = painted_on(fur.mesh, growth.comb, threads);
     fur.spacing = static_cast<float>(std::sqrt(fur.roots.area / static_cast<double>(std::max<std::size_t>(fur.roots.roots.size() + fur.bare, 1))));
     fur.roots_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return fur;
@@ -57,7 +69,7 @@ GrownFur grown_fur(Mesh mesh, const Coat& coat, std::span<const LengthRule> rule
 
 std::vector<Vec3f> comb_of(GrownFur& fur, const Coat& coat, int threads) {
     if (fur.mesh.normals.empty()) fur.mesh.normals = continuous_normals(fur.mesh, NormalMode::angle, threads);
-    return combed(fur.mesh, mean_lean(coat), threads);
+    return fur.upright ? upright_but_for(fur.mesh, fur.painted) : combed(fur.mesh, mean_lean(coat), threads, fur.painted);
 }
 
 StrandCurves curves_of(GrownFur& fur, const Coat& coat, int pieces, const FurForces& forces, int threads) {

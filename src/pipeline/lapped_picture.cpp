@@ -3,6 +3,7 @@
 #include "assets/image_file.h"
 #include "assets/mesh_file.h"
 #include "core/error.h"
+#include "fur/carried_values.h"
 #include "fur/comb.h"
 #include "fur/refined.h"
 #include "mesh/indexing.h"
@@ -25,8 +26,10 @@ LayersModel LappedDress::model(const LappedFurSettings& s) const {
     return {.mesh = &patches.mesh, .fur = &fur, .colour = &colour, .comb = &patches.comb, .tilt = s.coat.tilt, .bend = s.coat.bend, .height = s.coat.length, .light = s.light, .skin = s.coat.root_colour};
 }
 
-LappedDress lapped_dress(const Mesh& mesh, const LappedFurSettings& s) {
+LappedDress lapped_dress(const Mesh& bare, const LappedFurSettings& s, std::span<const PaintedLean> painted) {
     LappedDress dress;
+    const Mesh carrier = painted.empty() ? Mesh{} : carrying(bare, {}, painted);
+    const Mesh& mesh = painted.empty() ? bare : carrier;
     double area = 0;
     for (std::uint32_t f = 0; f < mesh.faces(); ++f) area += length(face_vector(mesh, f)) / 2;
     if (!(area > 0)) throw Error("grow fur on", mesh.name, "it has no area");
@@ -43,7 +46,8 @@ LappedDress lapped_dress(const Mesh& mesh, const LappedFurSettings& s) {
     } else {
         dress.base = refined(mesh, static_cast<std::size_t>(std::clamp(4 * enough, 1.0, 4e6)));
     }
-    dress.patches = lapped(dress.base, combed(dress.base, mean_lean(s.coat), s.threads), {.radius = dress.radius, .seed = s.seed});
+    const SkinPaint values = taken_off(dress.base, false, !painted.empty());
+    dress.patches = lapped(dress.base, combed(dress.base, mean_lean(s.coat), s.threads, values.painted), {.radius = dress.radius, .seed = s.seed});
     dress.texture = patch_texture(s.texels, s.density, s.seed);
     dress.fur = direction_map(MapShape::sphere, {dress.texture}, false);
     Image8 tint(1, 1, 4, 255);
@@ -67,13 +71,17 @@ FurPicture lapped_picture(const std::filesystem::path& file, const LappedFurSett
     const Timer timer;
     report(progress, "growing fur", 0.2);
     mesh = in_fur_space(std::move(mesh), s.threads);
-    mesh.uvs.clear();
-    mesh.colours.clear();
     mesh.normals = continuous_normals(mesh, NormalMode::angle, s.threads);
+    const Growth growth = with_pictures({.lengths = {}, .comb = s.comb});
+    std::vector<PaintedLean> painted = painted_on(mesh, growth.comb, s.threads);
+    const Mesh as_painted = painted.empty() ? Mesh{} : mesh;
+    if (!painted.empty()) mesh = carrying(mesh, {}, painted);
+    else mesh.uvs.clear(), mesh.colours.clear();
     mesh = indexed(std::move(mesh), s.threads);
+    painted = taken_off(mesh, false, !painted.empty()).painted;
     result.ms.prepare = timer.ms();
     const Timer growing;
-    const LappedDress dress = lapped_dress(mesh, s);
+    const LappedDress dress = lapped_dress(mesh, s, painted);
     result.ms.roots = growing.ms();
     renderer->load(dress.model(s));
     const FurView view{.camera = view_of_sphere({0, 0, 0}, 1 + static_cast<double>(s.coat.length) * 0.6, s.width, s.height), .layers = s.layers, .passes = 1};
@@ -97,7 +105,7 @@ FurPicture lapped_picture(const std::filesystem::path& file, const LappedFurSett
     result.strands = grown.roots.roots.size();
     if (s.reference_samples > 0) {
         const Timer tracing;
-        GrownFur even = grown_fur(mesh, s.coat, {}, s.threads);
+        GrownFur even = grown_fur(painted.empty() ? mesh : as_painted, s.coat, {.lengths = {}, .comb = painted.empty() ? CombPaint{} : growth.comb}, s.threads);
         const FurFrames reference = trace_fur(curves_of(even, s.coat, reference_pieces, {}, s.threads), even.mesh, s.coat, view, s.reference_samples, s.threads, progress);
         if (s.fit_light) {
             result.light = fitted_light(*renderer, averaged, reference, s.light);

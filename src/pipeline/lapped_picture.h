@@ -6,10 +6,12 @@
 #include "render/layers_renderer.h"
 
 #include <filesystem>
+#include <span>
 
 namespace relievo {
 
 struct LappedFurSettings {
+    CombPaint comb;            // the picture is read here
     Coat coat;                 // its number of strands, length, lean, width and colours; what sets strands apart from each other is not in a texture
     int texels = 128;          // edge of the square of strands, a power of two
     double density = 0.2;      // strands per texel of it; with the number of strands it says how large a patch is
@@ -34,7 +36,8 @@ struct LappedDress {
     double radius = 0;         // of a patch, in fur space
     LayersModel model(const LappedFurSettings& settings) const;
 };
-LappedDress lapped_dress(const Mesh& mesh, const LappedFurSettings& settings);
+// `painted` is that of the mesh's vertices (empty: nothing).
+LappedDress lapped_dress(const Mesh& mesh, const LappedFurSettings& settings, std::span<const PaintedLean> painted = {});
 
 // Throws Error.
 FurPicture lapped_picture(const std::filesystem::path& mesh, const LappedFurSettings& settings, const Progress& progress = {});

@@ -32,10 +32,14 @@ struct Vertex {
     Vec3f position, normal;
 };
 
-struct LappedVertex {
+struct CombedVertex {
     Vec3f position, normal, comb;
     Vec2f uv;
 };
+
+// Plain meshes, whose strands stand upright; meshes that are combed; and those of lapped patches.
+enum class Form { upright, combed, lapped };
+constexpr std::array forms{Form::upright, Form::combed, Form::lapped};
 
 struct Push {
     std::array<float, 16> to_clip;
@@ -66,7 +70,7 @@ struct LayersRenderer::State {
     gpu::Device device;
     vk::raii::DescriptorSetLayout set_layout = nullptr;
     vk::raii::PipelineLayout layout = nullptr;
-    std::array<vk::raii::Pipeline, 2> skins{nullptr, nullptr};  // of plain meshes, of patches
+    std::array<vk::raii::Pipeline, forms.size()> skins{nullptr, nullptr, nullptr};
     vk::raii::Pipeline layers = nullptr;  // made for each model
     vk::raii::Sampler sampler = nullptr;
     gpu::Buffer uniforms_buffer;
@@ -77,24 +81,26 @@ struct LayersRenderer::State {
     std::array<gpu::Image, 4> textures;  // fur and colour as cubes, then as discs
     vk::raii::DescriptorSets sets = nullptr;
     std::uint32_t index_count = 0;
-    bool lapped = false;
+    Form form = Form::upright;
     LayersUniforms uniforms{};
 
     static constexpr auto stages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
     static constexpr vk::VertexInputAttributeDescription attributes[] = {{.location = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(Vertex, position)},
                                                                          {.location = 1, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(Vertex, normal)}};
-    static constexpr vk::VertexInputAttributeDescription lapped_attributes[] = {{.location = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(LappedVertex, position)},
-                                                                                {.location = 1, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(LappedVertex, normal)},
-                                                                                {.location = 2, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(LappedVertex, comb)},
-                                                                                {.location = 3, .format = vk::Format::eR32G32Sfloat, .offset = offsetof(LappedVertex, uv)}};
+    static constexpr vk::VertexInputAttributeDescription combed_attributes[] = {{.location = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(CombedVertex, position)},
+                                                                                {.location = 1, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(CombedVertex, normal)},
+                                                                                {.location = 2, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(CombedVertex, comb)},
+                                                                                {.location = 3, .format = vk::Format::eR32G32Sfloat, .offset = offsetof(CombedVertex, uv)}};
 
-    // With the vertices of plain meshes or of patches.
-    gpu::DrawPipeline program(bool patches, std::string_view fragment) const {
-        return {.vertex = program_words(patches ? "shells/lapped.vert" : "shells/layers.vert"),
+    // With the vertices of the form.
+    gpu::DrawPipeline program(Form of, std::string_view fragment) const {
+        const bool combed = of != Form::upright;
+        const std::span<const vk::VertexInputAttributeDescription> all = combed_attributes;
+        return {.vertex = program_words(of == Form::upright ? "shells/layers.vert" : of == Form::combed ? "shells/layers_combed.vert" : "shells/lapped.vert"),
                 .fragment = program_words(fragment),
                 .targets = std::span(&colour_format, 1),
-                .attributes = patches ? std::span<const vk::VertexInputAttributeDescription>(lapped_attributes) : attributes,
-                .vertex_bytes = static_cast<std::uint32_t>(patches ? sizeof(LappedVertex) : sizeof(Vertex)),
+                .attributes = of == Form::lapped ? all : combed ? all.first(3) : attributes,
+                .vertex_bytes = static_cast<std::uint32_t>(combed ? sizeof(CombedVertex) : sizeof(Vertex)),
                 .depth = depth_format};
     }
 
@@ -106,7 +112,7 @@ struct LayersRenderer::State {
         set_layout = {device.handle(), vk::DescriptorSetLayoutCreateInfo{.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()}};
         const vk::PushConstantRange range{.stageFlags = stages, .size = sizeof(Push)};
         layout = {device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1, .pSetLayouts = &*set_layout, .pushConstantRangeCount = 1, .pPushConstantRanges = &range}};
-        for (const bool patches : {false, true}) skins[patches] = gpu::make_pipeline(device, *layout, program(patches, "shells/layers_skin.frag"));
+        for (const Form of : forms) skins[static_cast<std::size_t>(of)] = gpu::make_pipeline(device, *layout, program(of, "shells/layers_skin.frag"));
         sampler = {device.handle(), vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
                                                           .minFilter = vk::Filter::eLinear,
                                                           .mipmapMode = vk::SamplerMipmapMode::eLinear,
@@ -124,13 +130,15 @@ struct LayersRenderer::State {
         const auto edge = device.physical().getProperties().limits.maxImageDimensionCube;
         if (model.fur->size() > static_cast<int>(edge) || model.colour->size() > static_cast<int>(edge))
             throw Error("draw", "a fur map of " + std::to_string(model.fur->size()) + " texels a side", device.info().name + " reads no more than " + std::to_string(edge));
-        lapped = model.comb != nullptr;
-        assert(!lapped || (mesh.uvs.size() == mesh.positions.size() && model.comb->size() == mesh.positions.size() && model.fur->shape == MapShape::sphere));
-        vertices = gpu::make_buffer(device, mesh.positions.size() * (lapped ? sizeof(LappedVertex) : sizeof(Vertex)), vk::BufferUsageFlagBits::eVertexBuffer);
+        form = !model.comb ? Form::upright : mesh.uvs.empty() ? Form::combed : Form::lapped;
+        const bool lapped = form == Form::lapped;
+        assert(!model.comb || model.comb->size() == mesh.positions.size());
+        assert(!lapped || (mesh.uvs.size() == mesh.positions.size() && model.fur->shape == MapShape::sphere));
+        vertices = gpu::make_buffer(device, mesh.positions.size() * (model.comb ? sizeof(CombedVertex) : sizeof(Vertex)), vk::BufferUsageFlagBits::eVertexBuffer);
         parallel_for(static_cast<int>(mesh.positions.size()), 65536, 0, [&](int begin, int end) {
             for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v)
-                if (lapped)
-                    vertices.as<LappedVertex>()[v] = {mesh.positions[v], mesh.normals[v], (*model.comb)[v], mesh.uvs[v]};
+                if (model.comb)
+                    vertices.as<CombedVertex>()[v] = {mesh.positions[v], mesh.normals[v], (*model.comb)[v], lapped ? mesh.uvs[v] : Vec2f()};
                 else
                     vertices.as<Vertex>()[v] = {mesh.positions[v], mesh.normals[v]};
         });
@@ -154,7 +162,7 @@ struct LayersRenderer::State {
         device.handle().updateDescriptorSets(writes, {});
 
         const std::uint32_t constants[] = {static_cast<std::uint32_t>(model.fur->shape), static_cast<std::uint32_t>(model.addressing), model.filtered};
-        gpu::DrawPipeline blended = program(lapped, lapped ? "shells/lapped.frag" : "shells/layers.frag");
+        gpu::DrawPipeline blended = program(form, lapped ? "shells/lapped.frag" : "shells/layers.frag");
         if (!lapped) blended.fragment_constants = constants;
         blended.blended = true;
         layers = gpu::make_pipeline(device, *layout, blended);
@@ -245,7 +253,7 @@ FurFrames LayersRenderer::draw(const FurView& view) {
                 commands.beginRendering({.renderArea = {{0, 0}, extent}, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &into, .pDepthAttachment = &nearest});
                 commands.setViewport(0, vk::Viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1});
                 commands.setScissor(0, vk::Rect2D{{0, 0}, extent});
-                s.bind(commands, s.skins[s.lapped], {to_clip, 0});
+                s.bind(commands, s.skins[static_cast<std::size_t>(s.form)], {to_clip, 0});
                 commands.drawIndexed(s.index_count, 1, 0, 0, 0);
                 s.bind(commands, s.layers, {to_clip, 1});
                 commands.drawIndexed(s.index_count, static_cast<std::uint32_t>(view.layers), 0, 0, 0);

@@ -23,8 +23,8 @@ struct LayersModel {
     const DirectionMap* fur = nullptr;    // alpha: where strands stand
     const DirectionMap* colour = nullptr; // of the same shape
     Addressing addressing = Addressing::normal_plus_position;
-    const std::vector<Vec3f>* comb = nullptr;  // given: the mesh is one of lapped patches, and its uvs look up maps of shape sphere
-    float tilt = 0, bend = 0;             // of lapped strands along the comb, as in shaders/fur/strand_shape.glsl
+    const std::vector<Vec3f>* comb = nullptr;  // given: strands lean that way; on a mesh with uvs, which is one of lapped patches, those look up maps of shape sphere
+    float tilt = 0, bend = 0;             // along the comb, as in shaders/fur/strand_shape.glsl
     bool filtered = false;                // through the mip levels; else the finest alone, as the thesis does
     float height = 0.05f;                 // of the outermost layer, in radii
     LayersLight light;

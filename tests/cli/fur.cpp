@@ -367,5 +367,113 @@ TEST(Fur, RefusesMeshesWithoutASurface) {
     }
 }
 
+// A square of 8 x 8 cells in x and z, unwrapped by its own places, v toward -z.
+std::string unwrapped_square_in(const Folder& folder) {
+    std::string text;
+    for (int j = 0; j <= 8; ++j)
+        for (int i = 0; i <= 8; ++i) text += "v " + std::to_string(i) + " 0 " + std::to_string(-j) + "\nvt " + std::to_string(i / 8.0) + " " + std::to_string(j / 8.0) + "\n";
+    for (int j = 0; j < 8; ++j)
+        for (int i = 0; i < 8; ++i) {
+            text += "f";
+            for (const int v : {j * 9 + i + 1, j * 9 + i + 2, j * 9 + i + 11, j * 9 + i + 10}) {
+                const std::string n = std::to_string(v);
+                text += " ";
+                text += n;
+                text += "/";
+                text += n;
+            }
+            text += "\n";
+        }
+    return written(folder, "square.obj", text);
+}
+
+std::string paint_in(const Folder& folder, const std::string& name, const std::vector<std::uint8_t>& texel) {
+    Image8 picture(4, 4, static_cast<int>(texel.size()));
+    for (std::size_t t = 0; t < picture.texels.size(); ++t) picture.texels[t] = texel[t % texel.size()];
+    write_png(folder / name, picture, FirstRow::top);
+    return folder / name;
+}
+
+TEST(Fur, CombsAsPainted) {
+    const Folder folder;
+    const std::string mesh = unwrapped_square_in(folder), out = folder / "strands.obj";
+    const std::string to_v = paint_in(folder, "to_v.png", {128, 255, 255}), none = paint_in(folder, "none.png", {255, 128, 0, 0});
+    const auto exported = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all{"fur", mesh, "--quiet", "--density", "0.2", "--set", "lock=0", "--set", "spread=0", "--set", "guard_hairs=0", "--set", "length_variation=0", "--set", "length=0.1", "--pieces", "2", "--export", out};
+        all.insert(all.end(), more.begin(), more.end());
+        const Ended ended = run(all);
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        return read_text(out);
+    };
+    // Each strand goes from its root up and toward -z, as far as tilt 0.7 and bend 0.6 say, and nowhere else.
+    std::istringstream text(exported({"--comb", to_v}));
+    std::vector<std::array<double, 3>> points;
+    for (std::string line; std::getline(text, line);) {
+        std::istringstream words(line);
+        std::string kind;
+        words >> kind;
+        if (kind != "v") continue;
+        points.emplace_back();
+        for (double& v : points.back()) words >> v;
+    }
+    ASSERT_GT(points.size(), 300u);
+    const double length = 0.1 * std::sqrt(32.0), up = (std::sin(1.3) - std::sin(0.7)) / 0.6 * length, along = (std::cos(0.7) - std::cos(1.3)) / 0.6 * length;
+    for (std::size_t i = 0; i < points.size(); i += 3) {
+        EXPECT_NEAR(points[i + 2][0] - points[i][0], 0, 1e-4);
+        EXPECT_NEAR(points[i + 2][1] - points[i][1], up, 1e-4);
+        EXPECT_NEAR(points[i + 2][2] - points[i][2], -along, 1e-4);
+    }
+    // Without weight the fur is what it is without paint, to the byte.
+    const std::string plain = exported({});
+    EXPECT_TRUE(exported({"--comb", none}) == plain);
+    std::string coloured = read_text(mesh);
+    const std::string colour = " 0.50196078431 0.50196078431 0";  // of the line above
+    for (std::size_t at = 0; (at = coloured.find("\nvt", at)) != std::string::npos; at += colour.size() + 3) coloured.insert(at, colour);
+    const std::string dyed = written(folder, "dyed.obj", coloured);
+    const Ended by_colours = run({"fur", dyed, "--quiet", "--density", "0.2", "--comb", "colours", "--export", folder / "layers.glb", "--layers", "4", "--atlas", "256"});
+    EXPECT_EQ(by_colours.code, 0) << by_colours.err;
+}
+
+TEST(Fur, DrawsAPaintedCombInEveryMode) {
+    if (!has_device()) GTEST_SKIP() << "no Vulkan device";
+    const Folder folder;
+    const std::string mesh = unwrapped_square_in(folder), picture = folder / "fur.png", beside = folder / "beside.png";
+    const std::string left = paint_in(folder, "left.png", {1, 128, 255}), none = paint_in(folder, "none.png", {255, 128, 0, 0});
+    for (const char* mode : {"strands", "shells", "lapped", "classic"}) {
+        std::vector<std::string> pictures, references;
+        for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--comb", none}, {"--comb", left}}) {
+            std::vector<std::string> all = quick(mesh, {"--mode", mode, "--samples", "2", "--reference", beside, "--out", picture, "--json"});
+            all.insert(all.end(), more.begin(), more.end());
+            const Ended ended = run(all);
+            ASSERT_EQ(ended.code, 0) << ended.err;
+            pictures.push_back(read_text(picture));
+            references.push_back(read_text(beside));
+            const bool said = ended.out.find("no weight") != std::string::npos;
+            EXPECT_EQ(said, more.size() == 2 && more[1] == none) << mode;
+        }
+        // Not EXPECT_EQ, which prints how files differ.
+        EXPECT_TRUE(pictures[0] == pictures[1]) << mode;
+        EXPECT_TRUE(references[0] == references[1]) << mode;
+        EXPECT_FALSE(pictures[0] == pictures[2]) << mode;
+        EXPECT_FALSE(references[0] == references[2]) << mode;
+    }
+}
+
+TEST(Fur, RefusesPaintThatDoesNotFit) {
+    if (!has_device()) GTEST_SKIP() << "no Vulkan device";
+    const Folder folder;
+    const std::string square = unwrapped_square_in(folder), scan = tetrahedron_in(folder), paint = paint_in(folder, "paint.png", {255, 128, 255}), grey = paint_in(folder, "grey.png", {255});
+    const struct {
+        std::string mesh, paint;
+        const char* said;
+    } cases[] = {{scan, paint, "no texture coordinates"}, {scan, "colours", "no vertex colours"}, {square, grey, "red, green and blue"}, {square, folder / "missing.png", "missing.png"}, {square, written(folder, "text.png", "not a picture"), "text.png"}};
+    for (const auto& c : cases)
+        for (const char* mode : {"strands", "lapped", "classic"}) {
+            const Ended ended = run(quick(c.mesh, {"--mode", mode, "--json", "--comb", c.paint}));
+            EXPECT_EQ(ended.code, 1) << ended.out;
+            EXPECT_NE(ended.err.find(c.said), std::string::npos) << ended.err;
+        }
+}
+
 }  // namespace
 }  // namespace relievo::test

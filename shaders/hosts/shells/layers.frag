@@ -1,4 +1,4 @@
-// A uniform layer of fur: a texel of the fur map, found by a direction, tinted by the colour map and lit as a hair that stands upright.
+// A uniform layer of fur: a texel of the fur map, found by a direction, tinted by the colour map and lit as a hair along the axis of the strands.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "layers.glsl"
@@ -12,6 +12,7 @@ layout(set = 0, binding = 4) uniform sampler2D colour_disc;
 layout(location = 0) in vec3 base;
 layout(location = 1) in vec3 facing;
 layout(location = 2) in vec3 from_eye;
+layout(location = 3) in vec3 axis;  // of the strands here
 layout(location = 0) out vec4 colour;
 
 layout(constant_id = 0) const int lookup = lookup_cube;
@@ -34,6 +35,6 @@ void main() {
         strand = filtered != 0 ? texture(fur_disc, uv) : textureLod(fur_disc, uv, 0.0f);
         tint = filtered != 0 ? texture(colour_disc, uv).rgb : textureLod(colour_disc, uv, 0.0f).rgb;
     }
-    KajiyaKay light = kajiya_kay(normal, vec3(fur.key_x, fur.key_y, fur.key_z), normalize(from_eye));
+    KajiyaKay light = kajiya_kay(normalize(axis), vec3(fur.key_x, fur.key_y, fur.key_z), normalize(from_eye));
     colour = vec4(strand.rgb * tint * (fur.ambient + fur.diffuse * light.diffuse) + fur.specular * pow(light.specular, fur.power), strand.a);
 }
