@@ -81,7 +81,7 @@ function(relievo_gpu_programs name)
   foreach(host mesh/phong.vert mesh/phong.frag shells/skin.vert shells/skin.frag shells/strands.vert shells/strands.frag shells/light.vert shells/layers.vert shells/layers_combed.vert shells/layers.frag shells/layers_skin.frag shells/lapped.vert shells/lapped.frag
                strands/grow.comp strands/plot.comp strands/shade.vert strands/shade.frag
                maps/cell_cone_largest.comp maps/cell_cone_roof.comp maps/cell_cone_quadrants.comp
-               maps/distance_down.comp maps/distance_along.comp maps/distance_stored.comp)
+               maps/distance_down.comp maps/distance_along.comp maps/distance_stored.comp maps/cone.comp)
     string(REGEX REPLACE "[./]" "_" program ${host})
     relievo_gpu_program(${PROJECT_SOURCE_DIR}/shaders/hosts/${host} ${generated}/${program})
     list(APPEND words ${generated}/${program}.inc)

@@ -67,7 +67,7 @@ void add_bake_command(CLI::App& app) {
     verb->add_option("--out", o->settings.out, "FILE.png (8 or 16 bit) or FILE.exr (32-bit float)")->excludes(verifies);
     verb->footer("Examples:\n  relievo bake --material wall --map normal --out wall_normal.png\n"
                  "  relievo bake --material wall --map cone --no-cache --json --out wall_cone.exr\n"
-                 "  relievo bake --material wall --map cell_cone --device gpu --json --out wall_cells.exr\n"
+                 "  relievo bake --material wall --map cone --device gpu --json --out wall_cones.exr\n"
                  "  relievo bake --material wall --verify");
     verb->callback([o, map] {
         BakeSettings& s = o->settings;
@@ -96,7 +96,7 @@ void add_bake_command(CLI::App& app) {
         if (o->json) {
             std::printf("%s\n", nlohmann::ordered_json{{"map", o->map},
                                                        {"size", {baked.width, baked.height}},
-                                                       {"machine", baked.device.empty() ? "CPU" : baked.device},
+                                                       {"machine", baked.from_cache ? "cache" : baked.device.empty() ? "CPU" : baked.device},
                                                        {"ms", baked.ms},
                                                        {"start_ms", baked.start_ms},
                                                        {"threads", baked.threads},

@@ -1,6 +1,7 @@
 #include "maps/cone_map.h"
 
 #include "core/parallel_for.h"
+#include "maps/texel_maxima.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,10 +50,7 @@ constexpr float slack = 1.0f + 0x1p-20f;
 class SquaredDistances {
 public:
     explicit SquaredDistances(int size) : zero_(2 * size + tile_w), table_(static_cast<std::size_t>(2 * zero_ + 1)) {
-        for (int d = -zero_; d <= zero_; ++d) {
-            const float uv = static_cast<float>(std::abs(d)) / static_cast<float>(size);
-            table_[static_cast<std::size_t>(d + zero_)] = uv * uv;
-        }
+        for (int d = -zero_; d <= zero_; ++d) table_[static_cast<std::size_t>(d + zero_)] = squared_distance(std::abs(d), size);
     }
     // Distances of `d`, d + 1, d + 2 ...
     const float* at(int d) const { return table_.data() + (d + zero_); }
@@ -61,25 +59,6 @@ private:
     int zero_;
     std::vector<float> table_;
 };
-
-// Largest texel of blocks of 2^k x 2^k texels, up to a single node; sizes rounded up.
-std::vector<ImageF> texel_maxima(const ImageF& texels, int threads) {
-    std::vector<ImageF> levels{texels};
-    while (levels.back().width > 1 || levels.back().height > 1 || static_cast<int>(levels.size()) <= leaf_level) {
-        const ImageF& from = levels.back();
-        ImageF to((from.width + 1) / 2, (from.height + 1) / 2, 1);
-        parallel_for(to.height, 64, threads, [&](int begin, int end) {
-            for (int j = begin; j < end; ++j)
-                for (int i = 0; i < to.width; ++i) {
-                    const int i1 = std::min(2 * i + 1, from.width - 1);
-                    const int j1 = std::min(2 * j + 1, from.height - 1);
-                    to(i, j) = std::max(std::max(from(2 * i, 2 * j), from(i1, 2 * j)), std::max(from(2 * i, j1), from(i1, j1)));
-                }
-        });
-        levels.push_back(std::move(to));
-    }
-    return levels;
-}
 
 struct Node {
     int level, i, j;         // in the pyramid
@@ -246,7 +225,7 @@ ImageF cone_map(const HeightField& field, int threads, const Progress& progress)
     const int height = field.height();
     const SquaredDistances u2(width);
     const SquaredDistances v2(height);
-    const std::vector<ImageF> maxima = texel_maxima(field.texels, threads);
+    const std::vector<ImageF> maxima = texel_maxima(field.texels, leaf_level + 1, threads);
     ImageF cones(width, height, 2);
     parallel_for((height + tile_h - 1) / tile_h, 1, threads, [&](int begin, int end) {
         TileSearch search(maxima, u2, v2);

@@ -1,6 +1,7 @@
 #include "render/device_bake.h"
 
 #include "render/cell_cone_bake.h"
+#include "render/cone_bake.h"
 #include "render/distance_bake.h"
 
 #include <algorithm>
@@ -26,6 +27,7 @@ struct Row {
 };
 
 constexpr Row rows[] = {
+    {Map::cone, compiled<ConeBake>},
     {Map::distance, compiled<DistanceBake>},
     {Map::cell_cone, compiled<CellConeBake>},
 };

@@ -310,7 +310,7 @@ TEST(Contract, ADeviceBakesTheSameMaps) {
         const std::string id = map["id"];
         SCOPED_TRACE(id);
         const auto baked = [&](const std::string& device, const std::string& file) {
-            return run({"bake", "--material", wave, "--map", id, "--device", device, "--json", "--quiet", "--out", file});
+            return run({"bake", "--material", wave, "--map", id, "--device", device, "--no-cache", "--json", "--quiet", "--out", file});
         };
         if (!map["on_device"].get<bool>()) {
             const Ended refused = baked("gpu", folder / "refused.png");
@@ -375,6 +375,10 @@ TEST(Contract, TheCacheChangesNothing) {
     EXPECT_FALSE(anew.second);
     EXPECT_TRUE(first.first == second.first) << "the cached map differs from the baked one";
     EXPECT_TRUE(first.first == anew.first) << "two bakings of one map differ";
+    if (!has_device()) return;
+    const auto for_device = cone("4.exr", {"--device", "gpu"});
+    EXPECT_TRUE(for_device.second) << "what the CPU baked is not taken where a device was to bake";
+    EXPECT_TRUE(first.first == for_device.first);
 }
 
 }  // namespace relievo::test

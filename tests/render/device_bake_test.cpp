@@ -105,10 +105,13 @@ TEST_P(DeviceBake, IsTheCpusToTheBit) {
             expect_equal(on_device(c.field, height_scale), on_cpu(c.field, height_scale), c.name);
 }
 
-// More than one dispatch of every step, and no power of two.
+// More than one dispatch of every step, and no power of two. A software device takes a minute for cones of that size, which come in more
+// dispatches sooner.
 TEST_P(DeviceBake, IsTheCpusInBandsToo) {
-    for (const HeightField& field : {test::smooth_field(1999, 1201, 6), test::terraced_field(1999, 1201, 7)})
-        expect_equal(on_device(field, 0.1f), on_cpu(field, 0.1f), "1999x1201");
+    const int width = GetParam() == Map::cone ? 301 : 1999;
+    const int height = GetParam() == Map::cone ? 203 : 1201;
+    for (const HeightField& field : {test::smooth_field(width, height, 6), test::terraced_field(width, height, 7)})
+        expect_equal(on_device(field, 0.1f), on_cpu(field, 0.1f), "in bands");
 }
 
 TEST_P(DeviceBake, DoesNotDependOnThreads) {
@@ -121,24 +124,20 @@ TEST_P(DeviceBake, DoesNotDependOnThreads) {
 TEST_P(DeviceBake, ReportsProgressAndStopsWhenCancelled) {
     const HeightField field = test::random_field(200, 150, 1);
     double last = 0;
-    int reports = 0;
     on_device(field, 0.1f, 2, [&](std::string_view stage, double share) {
         EXPECT_FALSE(stage.empty());
         EXPECT_GE(share, last);
         EXPECT_LE(share, 1.0);
         last = share;
-        ++reports;
     });
     EXPECT_EQ(last, 1.0);
-    // At every report there is, and the device goes on baking afterwards.
-    for (int at = 1; at <= reports; ++at) {
-        int heard = 0;
+    // Early, late and at the end, and the device goes on baking afterwards.
+    for (const double at : {0.0, 0.3, 0.6, 1.0})
         EXPECT_THROW(on_device(field, 0.1f, 2,
-                               [&](std::string_view, double) {
-                                   if (++heard == at) throw Cancelled();
+                               [&](std::string_view, double share) {
+                                   if (share >= at) throw Cancelled();
                                }),
                      Cancelled);
-    }
     expect_equal(on_device(field, 0.1f), on_cpu(field, 0.1f), "after stopping");
 }
 
