@@ -213,19 +213,24 @@ private:
         const float rise = top - lowest_;
         const float nearest2 = gx * gx * metric_.u2 + gy * gy * metric_.v2;
         if ((nearest2 - metric_.nearer) * flattest_ >= rise * rise) return 0;
-        unsigned open = asked;
         if (metric_.step == 0.0f && nearest2 >= std::min(metric_.u2, metric_.v2)) {
             const Sheet sheet = sheet_of(n, low_x, high_x, low_y, high_y, std::sqrt(nearest2));
             // Above a rough node the plane is nowhere much lower than the highest texel.
-            for (unsigned left = sheet.height < top ? asked : 0; left != 0; left &= left - 1) {
-                const int g = std::countr_zero(left);
-                if (!rises_above(sheet, g)) open &= ~(1u << g);
-            }
+            if (sheet.height < top) return groups_where(asked, [&](int g) { return rises_above(sheet, g); });
         }
-        for (unsigned left = open; left != 0; left &= left - 1) {
-            const int g = std::countr_zero(left);
+        return groups_where(asked, [&](int g) {
             const Lanes above = most(top - apex_[g], Lanes{});
-            if (!any_less(bound_[g] * squared_gap(g, low_x, high_x, low_y, high_y), above * above)) open &= ~(1u << g);
+            return any_less(bound_[g] * squared_gap(g, low_x, high_x, low_y, high_y), above * above);
+        });
+    }
+
+    // Of the groups asked for, those that a test holds for.
+    template <class Test>
+    static unsigned groups_where(unsigned asked, const Test& test) {
+        unsigned open = 0;
+        for (; asked != 0; asked &= asked - 1) {
+            const int g = std::countr_zero(asked);
+            if (test(g)) open |= 1u << g;
         }
         return open;
     }
