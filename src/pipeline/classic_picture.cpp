@@ -54,14 +54,40 @@ std::array<double, 3> solved(std::array<std::array<double, 3>, 3> m, std::array<
     return x;
 }
 
-// A strand of the map grows wherever its direction is met, on scans ten times and more. The discs of the measure are as large as if all
-// grew once, which is what the map's size and density ask for; smaller ones would find still more unevenness.
-double discs_of(const MapStrands& grown, const DirectionMap& fur) {
-    const double times = static_cast<double>(grown.roots.roots.size()) / static_cast<double>(std::max<std::size_t>(strands_on(fur), 1));
-    return EvennessSettings{}.strands_per_disc * std::max(times, 1.0);
+void require_area(const Mesh& mesh) {
+    for (std::uint32_t f = 0; f < mesh.faces(); ++f)
+        if (length(face_vector(mesh, f)) > 0) return;
+    throw Error("grow fur on", mesh.name, "all its faces are collapsed");
 }
 
 }  // namespace
+
+Mesh classic_skin(Mesh mesh, int threads) {
+    mesh = in_fur_space(std::move(mesh), threads);
+    mesh.uvs.clear();
+    mesh.colours.clear();
+    mesh.normals = continuous_normals(mesh, NormalMode::distinct, threads);
+    mesh = ordered(indexed(std::move(mesh), threads), {.threads = threads});
+    require_area(mesh);
+    return mesh;
+}
+
+ClassicSettings classic_of(const Coat& coat) {
+    ClassicSettings classic;
+    classic.height = coat.length;
+    classic.colour = coat.tip_colour;
+    classic.skin = coat.root_colour;
+    classic.gloss = coat.gloss;
+    return classic;
+}
+
+Evenness classic_evenness(const Mesh& mesh, const MapStrands& grown, const DirectionMap& fur, int threads) {
+    // A strand of the map grows wherever its direction is met, on scans ten times and more. The discs of the measure are as large as if all
+    // grew once, which is what the map's size and density ask for; smaller ones would find still more unevenness.
+    const double times = static_cast<double>(grown.roots.roots.size()) / static_cast<double>(std::max<std::size_t>(strands_on(fur), 1));
+    const double per_disc = EvennessSettings{}.strands_per_disc * std::max(times, 1.0);
+    return evenness(mesh, grown.roots, grown.strands, {.strands_per_disc = per_disc, .extent = 1, .threads = threads});
+}
 
 std::size_t strands_on(const DirectionMap& fur) {
     std::size_t strands = 0;
@@ -200,7 +226,7 @@ FurPicture classic_picture(const std::filesystem::path& file, const ClassicSetti
     mesh = ordered(indexed(std::move(mesh), s.threads), {.threads = s.threads});
     painted = taken_off(mesh, false, !painted.empty()).painted;
     const std::vector<Vec3f> comb = upright_but_for(mesh, painted);
-    if (mesh.faces() == 0) throw Error("grow fur on", file.filename().string(), "all its faces are collapsed");
+    require_area(mesh);
     result.ms.prepare = timer.ms();
     const Timer growing;
     result.notes = mesh.notes;
@@ -249,7 +275,7 @@ FurPicture classic_picture(const std::filesystem::path& file, const ClassicSetti
     result.ms.frame_median = frames.frame_ms[frames.frame_ms.size() / 2];
     if (s.measure) {
         report(progress, "measuring", 0.9);
-        result.evenness = evenness(mesh, grown.roots, grown.strands, {.strands_per_disc = discs_of(grown, fur), .extent = 1, .threads = s.threads});
+        result.evenness = classic_evenness(mesh, grown, fur, s.threads);
     }
     result.frames = std::move(frames);
     report(progress, "drawing", 1);

@@ -3,6 +3,7 @@
 
 #include "assets/dds_file.h"
 #include "fur/fur_map.h"
+#include "fur/map_strands.h"
 #include "pipeline/fur_picture.h"
 #include "render/layers_renderer.h"
 
@@ -35,10 +36,19 @@ struct ClassicSettings {
     int threads = 0;
 };
 
+// The mesh as the thesis draws it, in fur space: with normals of its own kind and in the order that draws quickest here. Throws Error.
+Mesh classic_skin(Mesh mesh, int threads = 0);
+
 // The map of strands alone, each face with a seed of its own. Throws Error where the colour map cannot be read.
 DirectionMap classic_fur_map(const ClassicSettings& settings, std::vector<std::string>& notes);
 std::size_t strands_on(const DirectionMap& fur);
 DirectionMap classic_colour_map(const ClassicSettings& settings);
+
+// What a map and the normal can say of a coat: its length and its colours. Its number of strands is the map's.
+ClassicSettings classic_of(const Coat& coat);
+
+// How even the map's strands are on the mesh. `grown`: map_strands of both.
+Evenness classic_evenness(const Mesh& mesh, const MapStrands& grown, const DirectionMap& fur, int threads = 0);
 
 // What the maps stand for: upright strands of even thickness, that cover the map's density of the skin. `strands`: as many as the map has.
 Coat upright_coat(const ClassicSettings& settings, std::size_t strands);

@@ -4,77 +4,50 @@
 #include "assets/mesh_file.h"
 #include "core/error.h"
 #include "core/version.h"
-#include "pipeline/classic_picture.h"
+#include "pipeline/coat_painter.h"
 #include "pipeline/fur_picture.h"
 #include "pipeline/fur_reference.h"
 #include "pipeline/grown_fur.h"
-#include "pipeline/lapped_picture.h"
+#include "pipeline/timer.h"
+
+#include <algorithm>
+#include <map>
 
 namespace relievo {
 
 namespace {
 
 struct Truth {
+    FurView view;
     FurFrames frames;
     std::string picture;
 };
 
-FurPicture grown_as(FurKind mode, const std::filesystem::path& file, const Coat& coat, const CompareFurSettings& s) {
-    if (mode == FurKind::classic) {
-        // What a map and the normal can say of a coat: its length and its colours.
-        ClassicSettings classic;
-        classic.height = coat.length;
-        classic.colour = coat.tip_colour;
-        classic.skin = coat.root_colour;
-        classic.gloss = coat.gloss;
-        if (s.layers > 0) classic.layers = s.layers;
-        classic.width_px = s.width;
-        classic.height_px = s.height;
-        classic.passes = s.passes;
-        classic.device = s.device;
-        classic.measure = true;
-        classic.fit_light = true;
-        classic.reference_samples = s.samples;
-        classic.threads = s.threads;
-        return classic_picture(file, classic);
-    }
-    if (mode == FurKind::lapped) {
-        LappedFurSettings lapped;
-        lapped.coat = coat;
-        if (s.layers > 0) lapped.layers = s.layers;
-        lapped.width = s.width;
-        lapped.height = s.height;
-        lapped.passes = s.passes;
-        lapped.device = s.device;
-        lapped.measure = true;
-        lapped.fit_light = true;
-        lapped.reference_samples = s.samples;
-        lapped.threads = s.threads;
-        return lapped_picture(file, lapped);
-    }
-    FurSettings strands;
-    strands.mode = mode;
-    strands.coat = coat;
-    strands.layers = s.layers;
-    strands.width = s.width;
-    strands.height = s.height;
-    strands.passes = s.passes;
-    strands.device = s.device;
-    strands.measure = true;
-    strands.threads = s.threads;
-    return fur_picture(file, strands);
-}
-
-FurRow row_of(const FurPicture& p, const FurScore& score, const FurMode& mode) {
-    return {.mesh = {}, .preset = {}, .mode = std::string(mode.id), .faces = p.faces, .strands = p.strands, .layers = p.layers, .density_p95_over_p5 = p.evenness->density_p95_over_p5,
-            .shared_texel_area = p.evenness->shared_texel_area, .flip = score.flip, .coverage_error = score.coverage_error, .gaps = score.gaps,
-            .first_frame_ms = p.ms.first_frame, .frame_ms = p.ms.frame_median, .picture = {}, .reference = {}};
-}
-
-const FurMode& mode_of(FurKind kind) {
-    for (const FurMode& m : fur_modes)
-        if (m.kind == kind) return m;
-    return fur_modes[0];
+// One picture and all its numbers. `traced` is what the view should show.
+FurRow scored(CoatPainter& painter, const FurMode& mode, const Mesh& mesh, const Coat& coat, FurView view, const FurFrames& traced, const CompareFurSettings& s, Image8& picture) {
+    FurRow row;
+    row.mode = mode.id;
+    const Timer timer;
+    const CoatPainter::Worn worn = painter.wear(mesh, coat, view.camera, s.layers, s.threads);
+    view.layers = worn.layers;
+    view.passes = 1;
+    shown_fur(painter.draw(view));
+    row.first_frame_ms = timer.ms();
+    view.passes = s.passes;
+    painter.fit_light(view, traced);
+    FurFrames frames = painter.draw(view);
+    std::ranges::sort(frames.frame_ms);
+    const FurScore score = fur_score(frames, traced, s.threads);
+    const CoatPainter::Counted counted = painter.counted(s.threads);
+    row.faces = worn.faces;
+    row.strands = counted.strands;
+    row.layers = worn.layers;
+    row.shared_texel_area = counted.evenness.shared_texel_area;
+    row.errors = {.flip = score.flip, .coverage_error = score.coverage_error, .gaps = score.gaps, .density_p95_over_p5 = counted.evenness.density_p95_over_p5};
+    row.budget = mode.budget;
+    row.frame_ms = frames.frame_ms[frames.frame_ms.size() / 2];
+    picture = shown_fur(frames);
+    return row;
 }
 
 }  // namespace
@@ -86,18 +59,20 @@ FurComparison compare_fur(const CompareFurSettings& s, const Progress& progress)
     FurComparison all{.version = std::string(version), .command = s.command, .device = {}, .width = s.width, .height = s.height, .passes = s.passes, .samples = s.samples, .rows = {}, .refused = {}};
     const double steps = static_cast<double>(s.meshes.size() * s.presets.size() * (s.modes.size() + 1));
     double done = 0;
+    std::map<FurKind, std::unique_ptr<CoatPainter>> painters;
     for (std::size_t m = 0; m < s.meshes.size(); ++m) {
         const std::filesystem::path& file = s.meshes[m];
         // Files of one name may lie in several folders.
         const std::string stem = (s.meshes.size() > 1 ? std::to_string(m + 1) + "_" : std::string()) + file.stem().string();
         for (const CoatPreset& preset : s.presets) {
             const std::string start = stem + "_" + std::string(preset.id) + "_";
-            Truth truth{.frames = {}, .picture = start + "traced.png"};
+            Truth truth{.view = {.camera = view_of_sphere({0, 0, 0}, 1 + static_cast<double>(preset.coat.length) * 0.6, s.width, s.height)}, .frames = {}, .picture = start + "traced.png"};
+            Mesh mesh;
             try {
                 report(progress, "tracing " + start.substr(0, start.size() - 1), done / steps);
-                GrownFur grown = grown_fur(load_mesh(file, s.threads), preset.coat, {}, s.threads);
-                const FurView view{.camera = view_of_sphere({0, 0, 0}, 1 + static_cast<double>(preset.coat.length) * 0.6, s.width, s.height)};
-                truth.frames = trace_fur(curves_of(grown, preset.coat, reference_pieces, {}, s.threads), grown.mesh, preset.coat, view, s.samples, s.threads);
+                mesh = load_mesh(file, s.threads);
+                GrownFur grown = grown_fur(mesh, preset.coat, {}, s.threads);
+                truth.frames = trace_fur(curves_of(grown, preset.coat, reference_pieces, {}, s.threads), grown.mesh, preset.coat, truth.view, s.samples, s.threads);
             } catch (const Error& e) {
                 all.refused.emplace_back(e.what());
                 done += static_cast<double>(s.modes.size() + 1);
@@ -106,16 +81,18 @@ FurComparison compare_fur(const CompareFurSettings& s, const Progress& progress)
             write_fur_picture(s.out / truth.picture, shown_fur(truth.frames));
             ++done;
             for (const FurKind kind : s.modes) {
-                const FurMode& mode = mode_of(kind);
+                const FurMode& mode = fur_mode(kind);
                 report(progress, "drawing " + start + std::string(mode.id), done / steps);
-                const FurPicture p = grown_as(kind, file, preset.coat, s);
-                FurRow row = row_of(p, fur_score(p.frames, truth.frames, s.threads), mode);
+                std::unique_ptr<CoatPainter>& painter = painters[kind];
+                if (!painter) painter = std::make_unique<CoatPainter>(kind, s.device);
+                Image8 picture;
+                FurRow row = scored(*painter, mode, mesh, preset.coat, truth.view, truth.frames, s, picture);
                 row.mesh = file.filename().string();
                 row.preset = preset.id;
                 row.picture = start + std::string(mode.id) + ".png";
                 row.reference = truth.picture;
-                write_fur_picture(s.out / row.picture, p.picture);
-                all.device = p.device;
+                write_fur_picture(s.out / row.picture, picture);
+                all.device = painter->device_name();
                 all.rows.push_back(std::move(row));
                 ++done;
             }

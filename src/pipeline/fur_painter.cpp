@@ -64,14 +64,15 @@ LayerMesh layer_mesh(const GrownFur& fur, const Coat& coat, const MeshView& view
 
 }  // namespace
 
-FurPainter::FurPainter(FurKind kind, const std::string& device) : kind_(kind) {
+FurPainter::FurPainter(FurKind kind, const std::string& device, bool validation) : kind_(kind) {
     assert(kind == FurKind::strands || kind == FurKind::shells);
-    if (kind == FurKind::strands) strands_ = std::make_unique<StrandRenderer>(device);
-    else shells_ = std::make_unique<FurRenderer>(device);
+    if (kind == FurKind::strands) strands_ = std::make_unique<StrandRenderer>(device, validation);
+    else shells_ = std::make_unique<FurRenderer>(device, validation);
 }
 FurPainter::~FurPainter() = default;
 
 std::string FurPainter::device_name() const { return strands_ ? strands_->device_name() : shells_->device_name(); }
+std::vector<std::string> FurPainter::validation_messages() const { return strands_ ? strands_->validation_messages() : shells_->validation_messages(); }
 
 void FurPainter::expect(const FurView& view, std::size_t strands) {
     if (strands_) strands_->expect(view, strands);

@@ -20,11 +20,12 @@ class StrandRenderer;
 class FurPainter {
 public:
     // kind: strands or shells. Devices are chosen as by GpuRenderer. Throws Error.
-    FurPainter(FurKind kind, const std::string& device);
+    FurPainter(FurKind kind, const std::string& device, bool validation = false);
     ~FurPainter();
 
     std::string device_name() const;
     FurKind kind() const { return kind_; }
+    std::vector<std::string> validation_messages() const;
 
     // Makes room for pictures like `view` of about so many strands, where that saves time later. Throws Error.
     void expect(const FurView& view, std::size_t strands);

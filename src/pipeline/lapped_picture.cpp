@@ -26,6 +26,14 @@ LayersModel LappedDress::model(const LappedFurSettings& s) const {
     return {.mesh = &patches.mesh, .fur = &fur, .colour = &colour, .comb = &patches.comb, .tilt = s.coat.tilt, .bend = s.coat.bend, .height = s.coat.length, .light = s.light, .skin = s.coat.root_colour};
 }
 
+Mesh lapped_skin(Mesh mesh, int threads) {
+    mesh = in_fur_space(std::move(mesh), threads);
+    mesh.uvs.clear();
+    mesh.colours.clear();
+    mesh.normals = continuous_normals(mesh, NormalMode::angle, threads);
+    return indexed(std::move(mesh), threads);
+}
+
 LappedDress lapped_dress(const Mesh& bare, const LappedFurSettings& s, std::span<const PaintedLean> painted) {
     LappedDress dress;
     const Mesh carrier = painted.empty() ? Mesh{} : carrying(bare, {}, painted);

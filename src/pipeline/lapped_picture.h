@@ -27,6 +27,9 @@ struct LappedFurSettings {
     int threads = 0;
 };
 
+// The mesh in fur space with continuous normals, as patches grow on it. Throws Error.
+Mesh lapped_skin(Mesh mesh, int threads = 0);
+
 // What a mesh wears and what draws it. `mesh` is in fur space and has unit normals.
 struct LappedDress {
     Mesh base;                 // simplified where faces are far smaller than patches, cut finer where they are larger

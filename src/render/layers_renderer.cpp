@@ -255,8 +255,10 @@ FurFrames LayersRenderer::draw(const FurView& view) {
                 commands.setScissor(0, vk::Rect2D{{0, 0}, extent});
                 s.bind(commands, s.skins[static_cast<std::size_t>(s.form)], {to_clip, 0});
                 commands.drawIndexed(s.index_count, 1, 0, 0, 0);
-                s.bind(commands, s.layers, {to_clip, 1});
-                commands.drawIndexed(s.index_count, static_cast<std::uint32_t>(view.layers), 0, 0, 0);
+                if (s.uniforms.fur_height > 0) {
+                    s.bind(commands, s.layers, {to_clip, 1});
+                    commands.drawIndexed(s.index_count, static_cast<std::uint32_t>(view.layers), 0, 0, 0);
+                }
                 commands.endRendering();
                 gpu::transition(commands, colour, vk::ImageLayout::eColorAttachmentOptimal, vk::ImageLayout::eTransferSrcOptimal);
                 gpu::read_back(commands, colour, texels);

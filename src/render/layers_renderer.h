@@ -26,7 +26,7 @@ struct LayersModel {
     const std::vector<Vec3f>* comb = nullptr;  // given: strands lean that way; on a mesh with uvs, which is one of lapped patches, those look up maps of shape sphere
     float tilt = 0, bend = 0;             // along the comb, as in shaders/fur/strand_shape.glsl
     bool filtered = false;                // through the mip levels; else the finest alone, as the thesis does
-    float height = 0.05f;                 // of the outermost layer, in radii
+    float height = 0.05f;                 // of the outermost layer, in radii; 0: bare skin
     LayersLight light;
     Vec3f skin{0.1f, 0.08f, 0.06f};       // linear albedo of the mesh under the fur
 };

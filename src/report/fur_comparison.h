@@ -2,6 +2,8 @@
 // terminal and a page that opens from disk.
 #pragma once
 
+#include "fur/fur_errors.h"
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -10,14 +12,14 @@ namespace relievo {
 
 // One mode on one mesh in one coat.
 struct FurRow {
-    std::string mesh, preset, mode;
+    std::string mesh = {}, preset = {}, mode = {};
     std::size_t faces = 0, strands = 0;
     int layers = 0;
-    double density_p95_over_p5 = 0;  // infinite where a twentieth of the surface is bare
-    double shared_texel_area = 0;    // share
-    double flip = 0, coverage_error = 0, gaps = 0;  // against the traced strands of the coat
-    double first_frame_ms = 0, frame_ms = 0;        // from the loaded mesh; median
-    std::string picture, reference;  // files beside the page
+    FurErrors errors;                         // against the traced strands of the coat
+    FurErrors budget;                         // of the mode
+    double shared_texel_area = 0;             // share
+    double first_frame_ms = 0, frame_ms = 0;  // from the loaded mesh; median
+    std::string picture = {}, reference = {}; // files beside the page
 };
 
 struct FurComparison {

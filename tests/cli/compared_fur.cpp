@@ -39,6 +39,7 @@ TEST(ComparedFur, ScoresModesOnTheSameTruthAndNamesWhatGrowsNothing) {
     EXPECT_EQ(strands["shared_texel_area"], 0);
     for (const Json& row : json["rows"]) {
         EXPECT_GT(row["frame_ms"].get<double>(), 0);
+        EXPECT_EQ(row["inside_budget"].get<bool>(), row["outside"].empty());
         EXPECT_TRUE(std::filesystem::exists(folder.path() / "report" / row["picture"].get<std::string>()));
         EXPECT_TRUE(std::filesystem::exists(folder.path() / "report" / row["reference"].get<std::string>()));
     }
