@@ -129,4 +129,20 @@ TEST(Explained, EffectsAsTableAndJson) {
     EXPECT_NE(slip.err.find("'relief_mapping'"), std::string::npos);
 }
 
+TEST(Explained, EffectsOfFur) {
+    EXPECT_EQ(run({"effects", "--fur", "--technique", "relief_mapping"}).code, 2);
+    EXPECT_EQ(run({"effects", "--device", "software"}).code, 2);
+    if (!has_device()) GTEST_SKIP() << "no Vulkan device";
+    const Ended ended = run({"effects", "--fur", "--json", "--quiet"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const Json json = Json::parse(ended.out, nullptr, false);
+    EXPECT_EQ(json["modes"].size(), Json::parse(run({"list", "fur", "--json"}).out, nullptr, false).size());
+    for (const Json& row : json["modes"])
+        for (const Json& effect : json["effects"]) {
+            const Json& cell = row[effect["id"].get<std::string>()];
+            EXPECT_EQ(cell["present"], cell["share"].get<double>() >= effect["present_from"].get<double>()) << row;
+            EXPECT_EQ(cell["present"], cell["claimed"]) << row;
+        }
+}
+
 }  // namespace relievo::test
