@@ -14,6 +14,7 @@
 #include "measure/hits.h"
 #include "pipeline/compare.h"
 #include "pipeline/extrusion_figure.h"
+#include "pipeline/fur_chapters.h"
 #include "pipeline/fur_figures.h"
 #include "pipeline/map_set_bake.h"
 #include "pipeline/picture_sheet.h"
@@ -223,7 +224,7 @@ std::string techniques_page() {
             << effect_names(t.effects) << " | " << t.limits << " |\n";
     out << "\n## Fur\n\nLayers of hair are a family of their own (`relievo fur --mode`): they are not asked for a first hit but for how much of a pixel they cover.\n\n"
            "| year | mode | it ... | where it fails |\n|---|---|---|---|\n";
-    for (const FurMode& m : fur_modes) out << "| " << m.year << " | [" << m.title << "](../" << m.chapter << ") (`" << m.id << "`) | " << m.summary << " | " << m.limits << " |\n";
+    for (const FurMode& m : fur_modes) out << "| " << m.year << " | [" << m.title << "](fur/" << m.id << ".md) (`" << m.id << "`) | " << m.summary << " | " << m.limits << " |\n";
     out << "\n[The table of effects](effects.md) says how much of each effect was measured.\n";
     return out.str();
 }
@@ -326,7 +327,7 @@ private:
 
 void write_docs(const DocsSettings& settings, const Progress& progress) {
     const fs::path out = settings.out;
-    for (const char* part : {"techniques", "figures"}) {
+    for (const char* part : {"techniques", "fur", "figures"}) {
         if (!settings.figures && std::string_view(part) == "figures") continue;
         std::error_code failed;
         fs::create_directories(out / part, failed);
@@ -370,7 +371,8 @@ void write_docs(const DocsSettings& settings, const Progress& progress) {
     }
     write_file_atomically(out / "techniques.md", techniques_page());
     write_file_atomically(out / "tables.md", tables_page());
-    write_file_atomically(out / "effects.md", effects_page(settings.threads));
+    const std::string fur = write_fur_chapters({.out = out, .drawn = settings.figures, .device = settings.device, .threads = settings.threads});
+    write_file_atomically(out / "effects.md", effects_page(settings.threads) + fur);
 
     if (figures) {
         write_file_atomically(out / "figures" / "mesh-extrusion.svg", svg_text(extrusion_figure(), Paper::either));
