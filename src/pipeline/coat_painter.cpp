@@ -88,6 +88,8 @@ CoatPainter::Worn CoatPainter::wear(Mesh mesh, const Coat& coat, const MeshView&
     return s.kind == FurKind::classic ? s.wear_classic(std::move(mesh), layers, threads) : s.wear_lapped(std::move(mesh), layers, threads);
 }
 
+bool light_is_fitted(FurKind kind) { return kind == FurKind::classic || kind == FurKind::lapped; }
+
 void CoatPainter::fit_light(const FurView& view, const FurFrames& traced) {
     if (state_->layers) fitted_light(*state_->layers, view, traced, state_->light);
 }

@@ -14,6 +14,9 @@
 
 namespace relievo {
 
+// Whether a mode's light is a setting of its own, as that of textured layers is; others compute their light from the coat.
+bool light_is_fitted(FurKind kind);
+
 class CoatPainter {
 public:
     // Devices are chosen as by GpuRenderer. Throws Error.
@@ -31,8 +34,7 @@ public:
     // strands leaves the skin bare. Throws Error for meshes on which nothing can grow.
     Worn wear(Mesh mesh, const Coat& coat, const MeshView& camera, int layers = 0, int threads = 0);
 
-    // Gives a mode whose light is a setting of its own the one that brings it nearest to these traced strands, which the view shows; others compute
-    // their light from the coat.
+    // Gives a mode of light_is_fitted the light that brings it nearest to these traced strands, which the view shows; others keep theirs.
     void fit_light(const FurView& view, const FurFrames& traced);
 
     // What was worn last. The view's layers should be those of `wear`.

@@ -64,7 +64,8 @@ std::string chapter(const FurMode& mode, const std::optional<FurErrors>& measure
         << "Mode `" << id << "` of `relievo fur`: " << mode.summary << ". [How it works](../../" << chapter << ").\n\n"
         << "![" << mode.title << " and traced strands](../figures/fur-mode-" << id << ".png)\n\n"
         << "*A made-up scan of " << scan_faces << " faces in the coat `" << coat_presets().front().id << "`. Left: " << id << ", " << passes
-        << " passes. Right: the coat's strands as curves, ray traced. Made by `relievo docs`; the same on a file: `relievo compare fur MESH --mode " << id << " --out report`.*\n\n"
+        << " passes" << (light_is_fitted(mode.kind) ? ", in the light that brings it nearest to the right by least squares, which is flat where strands do not lie as they should" : "")
+        << ". Right: the coat's strands as curves, ray traced. Made by `relievo docs`; the same on a file: `relievo compare fur MESH --mode " << id << " --out report`.*\n\n"
         << "## What it shows\n\n| effect | claimed |\n|---|---|\n";
     for (const FurEffectKind& k : fur_effect_kinds()) out << "| " << k.title << " | " << (mode.effects.*k.claim ? "yes" : "no") << " |\n";
     out << "\n<!-- measured -->\n";
