@@ -11,10 +11,12 @@ namespace relievo {
 struct CastGrid {
     int width = 0;  // texels of one period, as many cells
     int height = 0;
-    // The heights of 4x4 cells side by side, block after block, rows of blocks (the last of a row or column may hang over): 5 rows
-    // of 5 texels, so that no cell needs another block, and 7 floats of nothing: two cache lines.
+    // Rows of pairs: a texel and the one above it; after the last pair of a row its first. So a cell's corners lie side by side
+    // (h00, h01, h10, h11). patch_pitch floats a row.
     const float* patches = nullptr;
-    const std::uint16_t* tops = nullptr;  // the 16 cells' largest corners, as nodes
+    int patch_pitch = 0;
+    // The largest corners of 4x4 cells, as nodes, block after block, rows of blocks (the last of a row or column may hang over).
+    const std::uint16_t* tops = nullptr;
     int block_columns = 0;
     // Of the blocks from each on along y (up) or x (right), roof_blocks of them: in the upper 16 bits the largest height, as nodes,
     // in the lower the mean height of their cells' tops, rounded.
@@ -36,8 +38,7 @@ inline constexpr int block_level = 2;  // of the pyramid: its nodes are the bloc
 inline constexpr int roof_blocks = 4;
 inline constexpr int tops_slack = 40;  // the rows of the widest bundle, and a vector
 inline constexpr int block_cells = block_side * block_side;
-// In a block's patches: from a texel to the next along y, and from a block to the next.
-inline constexpr int patch_pitch = block_side + 1, patch_floats = 32;
+inline constexpr int patch_step = 2;  // floats from a cell's patch to that of the next along x
 
 inline constexpr float node_unit = 1.0f / 65535;
 

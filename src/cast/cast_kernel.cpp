@@ -14,6 +14,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "cast/fours.h"
 #include "cast/lanes.h"
 #include "cast/walk_alone.h"
 #include "cast/walk_together.h"
@@ -35,9 +36,19 @@ HWY_INLINE void store_hits(F u, F v, F height, F flag, CastHit* hits) {
 #endif
 }
 
-// Bundles in flight: what comes before and after the walks does not branch, so that the processor works at several at once. More
-// than these gained nothing.
-constexpr std::size_t in_flight = 4;
+static_assert(sizeof(CastRay) == 7 * sizeof(float));
+
+// `lane_count` rays one behind the other.
+HWY_INLINE RayVectors load_rays(const CastRay* rays) {
+    const auto [u, v, du, dv] = load_fours([&](std::size_t lane) HWY_ATTR { return &rays[lane].uv.x; });
+    const auto [again, zero_level, z_start, z_end] =
+        load_fours([&](std::size_t lane) HWY_ATTR { return &rays[lane].uv_per_height.y; });
+    return {u, v, du, dv, zero_level, z_start, z_end};
+}
+
+// Bundles in flight: what comes before and after the walks does not branch, so that the processor works at several at once. Four
+// are 2 % faster on what lies in its caches and 3 % slower on what does not.
+constexpr std::size_t in_flight = 2;
 
 void cast_lanes(const CastGrid& grid, const CastRay* rays, std::size_t vectors, CastHit* hits) {
     const Floats d;

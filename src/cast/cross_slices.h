@@ -8,6 +8,7 @@
 #endif
 
 #include "cast/bundle_lanes.h"
+#include "cast/fours.h"
 #include "cast/nearest_hit.h"
 #include "cast/slices.h"
 
@@ -36,7 +37,6 @@ HWY_INLINE void cross_slices(const CastGrid& grid, const Bundle& bundle, const B
     const Ints di;
     const F zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const int u_shift = bundle.along_x ? 0 : block_level, v_shift = bundle.along_x ? block_level : 0;
-    const int next_p = bundle.along_x ? 1 : patch_pitch, next_q = bundle.along_x ? patch_pitch : 1;
     const auto behind = static_cast<float>((last - slice) * block_side);
     std::int32_t lowest_row = group.lowest_row[slice], highest_row = group.highest_row[slice];
     for (std::size_t k = slice + 1; k <= last; ++k)
@@ -84,34 +84,33 @@ HWY_INLINE void cross_slices(const CastGrid& grid, const Bundle& bundle, const B
             leave_p = hn::Mul(lanes.back_p, hn::Set(d, lanes.near_p - 1));
     const F enter_q = hn::Mul(lanes.back_q, hn::Set(d, -lanes.near_q)),
             leave_q = hn::Mul(lanes.back_q, hn::Set(d, lanes.near_q - 1));
-    const I q_first = hn::Set(di, in_period(bundle.block_q + lowest_row, bundle.q_blocks)),
-            p_first = hn::Set(di, group.column[slice]);
-    const I p_floats = hn::Set(di, bundle.along_x ? patch_floats : bundle.q_blocks * patch_floats);
-    const I q_floats = hn::Set(di, bundle.along_x ? bundle.p_blocks * patch_floats : patch_floats);
-    // Whether u, or v, counts rows of texels.
-    const I u_rows = hn::Set(di, bundle.along_x ? 0 : -1), v_rows = hn::Set(di, bundle.along_x ? -1 : 0);
-    const I three = hn::Set(di, block_side - 1);
+    const I q_first = hn::Set(di, in_period(bundle.block_q + lowest_row, bundle.q_blocks) * block_side - to_bits_as_int),
+            p_first = hn::Set(di, group.column[slice] * block_side - to_bits_as_int);
+    const I p_floats = hn::Set(di, bundle.along_x ? patch_step : grid.patch_pitch);
+    const I q_floats = hn::Set(di, bundle.along_x ? grid.patch_pitch : patch_step);
+    const FMask by_x = hn::RebindMask(d, hn::Eq(p_floats, hn::Set(di, patch_step)));
     const float* const patches = grid.patches;
+    alignas(64) std::int32_t place[lane_count];
+    const volatile std::int32_t* const places = place;  // read from memory: GCC takes the vector apart, which is slower
+    NearestHit near = nearest;
     for (;;) {
-        const I cell_u = hn::ConvertTo(di, u), cell_v = hn::ConvertTo(di, v);
-        const I q = wrapped(hn::Add(q_first, hn::ShiftRight<block_level>(cell_v)), bundle.q_blocks);
-        const I p = wrapped(hn::Add(p_first, hn::ShiftRight<block_level>(cell_u)), bundle.p_blocks);
-        const I in_u = hn::And(cell_u, three), in_v = hn::And(cell_v, three);
-        const I cell = hn::Add(hn::Add(in_u, in_v), hn::ShiftLeft<2>(hn::Or(hn::And(in_u, u_rows), hn::And(in_v, v_rows))));
-        const I at = hn::Add(hn::Add(hn::Mul(p, p_floats), hn::Mul(q, q_floats)), cell);
-        const F h00 = hn::GatherIndex(d, patches, at), h10 = hn::GatherIndex(d, patches + next_p, at);
-        const F h01 = hn::GatherIndex(d, patches + next_q, at), h11 = hn::GatherIndex(d, patches + next_p + next_q, at);
+        const I q = wrapped(hn::Add(q_first, whole_bits(v)), bundle.q_blocks * block_side);
+        const I p = wrapped(hn::Add(p_first, whole_bits(u)), bundle.p_blocks * block_side);
+        hn::Store(hn::Add(hn::Mul(p, p_floats), hn::Mul(q, q_floats)), di, place);
+        const auto [h00, above, right, h11] = load_fours([&](std::size_t lane) HWY_ATTR { return patches + places[lane]; });
+        const F h10 = hn::IfThenElse(by_x, right, above), h01 = hn::IfThenElse(by_x, above, right);
         const F x0 = hn::Sub(p_here, u), y0 = hn::Sub(q_here, v);
         const F far_p = hn::MulAdd(x0, lanes.back_p, leave_p), far_q = hn::MulAdd(y0, lanes.back_q, leave_q);
         const F enter = hn::Max(hn::Max(hn::MulAdd(x0, lanes.back_p, enter_p), hn::MulAdd(y0, lanes.back_q, enter_q)), begin);
-        const FMask hit = nearest.put(alive, h00, h10, h01, h11, x0, y0, enter, hn::Min(hn::Min(far_p, far_q), after), descent,
-                                      z_here, lanes.speed_p, lanes.speed_q, lanes.speed_pq);
+        const FMask hit = near.put(alive, h00, h10, h01, h11, x0, y0, enter, hn::Min(hn::Min(far_p, far_q), after), descent, z_here,
+                                   lanes.speed_p, lanes.speed_q, lanes.speed_pq);
         const FMask through_p = hn::Le(far_p, far_q);
         u = hn::Add(u, hn::IfThenElseZero(through_p, step_u));
         v = hn::Add(v, hn::IfThenElse(through_p, zero, step_v));
         alive = hn::And(hn::AndNot(hit, alive), hn::And(hn::Ne(u, end_u), hn::Ne(v, end_v)));
         if (hn::AllFalse(d, alive)) break;
     }
+    nearest = near;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -31,16 +31,13 @@ int levels_of(int width, int height) {
 
 }  // namespace
 
-// On cache lines, as they are read.
-struct alignas(64) PatchBlock {
-    float heights[patch_floats];
-};
+// In one cache line.
 struct alignas(32) TopBlock {
     std::uint16_t cells[block_cells];
 };
 
 struct HeightFieldCaster::Built {
-    std::vector<PatchBlock> patches;
+    std::vector<float> patches;
     std::vector<TopBlock> tops;
     std::vector<std::uint16_t> nodes;
     std::vector<float> tops_up, tops_right;
@@ -89,7 +86,9 @@ HeightFieldCaster::HeightFieldCaster(const HeightField& field, const CasterSetti
     // One node of slack, as 32 bits are read where 16 are wanted.
     built->nodes.resize(at(grid.stack, grid.node_pitch) + 2);
     built->tops.resize(at(block_rows, grid.block_columns));
-    built->patches.resize(at(block_rows, grid.block_columns));
+    // Not a power of two either, nor near one.
+    grid.patch_pitch = patch_step * (width + 1) + 30;
+    built->patches.resize(at(height, grid.patch_pitch));
     std::uint16_t* const nodes = built->nodes.data();
     const float* const texels = field.texels.texels.data();
 
@@ -100,24 +99,19 @@ HeightFieldCaster::HeightFieldCaster(const HeightField& field, const CasterSetti
             const float* const row = texels + at(j, width);
             const float* const above = texels + at(j + 1 == height ? 0 : j + 1, width);
             std::uint16_t* const node_row = nodes + at(j, grid.node_pitch);
+            float* const patch = built->patches.data() + at(j, grid.patch_pitch);
             for (int i = 0; i < width; ++i) {
                 const int next = i + 1 == width ? 0 : i + 1;
                 const float h00 = row[i], h10 = row[next], h01 = above[i], h11 = above[next];
                 good &= h00 >= 0 && h00 <= 1;
+                patch[patch_step * i] = h00, patch[patch_step * i + 1] = h01;
                 const std::size_t block = at(j / block_side, grid.block_columns) + static_cast<std::size_t>(i / block_side);
                 const auto cell = static_cast<std::size_t>(j % block_side * block_side + i % block_side);
                 const float top = std::max(std::max(h00, h10), std::max(h01, h11));
                 // What is no height is not made a node: it is refused below.
                 node_row[i] = built->tops[block].cells[cell] = top >= 0 && top <= 1 ? rounded_up(top) : std::uint16_t{0};
             }
-        }
-        for (int block = begin * grid.block_columns; block < end * grid.block_columns; ++block) {
-            const int first_i = block % grid.block_columns * block_side, first_j = block / grid.block_columns * block_side;
-            float* const patch = built->patches[static_cast<std::size_t>(block)].heights;
-            for (int v = 0; v < patch_pitch; ++v)
-                for (int u = 0; u < patch_pitch; ++u)
-                    patch[v * patch_pitch + u] =
-                        texels[at((first_j + v) % height, width) + static_cast<std::size_t>((first_i + u) % width)];
+            std::copy(patch, patch + patch_step, patch + patch_step * width);
         }
         if (!good) valid = false;
     });
@@ -175,7 +169,7 @@ HeightFieldCaster::HeightFieldCaster(const HeightField& field, const CasterSetti
     grid.roofs_right = built->roofs_right.data();
     grid.tops_up = built->tops_up.data();
     grid.tops_right = built->tops_right.data();
-    grid.patches = built->patches.data()->heights;
+    grid.patches = built->patches.data();
     grid.tops = built->tops.data()->cells;
     grid.nodes = nodes;
     built_ = std::move(built);

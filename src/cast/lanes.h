@@ -115,23 +115,18 @@ HWY_INLINE void set_axis(F uvs, F uvs_per_height, F ways, int cells, LaneAxis& o
 }
 #endif
 
+// Added to a whole number between -2^22 and 2^22 it leaves that number in the last bits: a conversion in one operation, where
+// ConvertTo takes five, as it looks after what is too large.
+constexpr float to_bits = 12582912.0f;  // 1.5 * 2^23
+constexpr std::int32_t to_bits_as_int = 0x4b400000;
+// The whole number v, plus to_bits_as_int.
+HWY_INLINE I whole_bits(F v) { return hn::BitCast(Ints(), hn::Add(v, hn::Set(Floats(), to_bits))); }
+HWY_INLINE I whole(F v) { return hn::Sub(whole_bits(v), hn::Set(Ints(), to_bits_as_int)); }
+
 // The rays as vectors: one per field of CastRay.
 struct RayVectors {
     F u, v, du, dv, zero_level, z_start, z_end;
 };
-
-static_assert(sizeof(CastRay) == 7 * sizeof(float));
-
-// `lane_count` rays one behind the other.
-HWY_INLINE RayVectors load_rays(const CastRay* rays) {
-    const Floats d;
-    const Ints di;
-    const I index = hn::Mul(hn::Iota(di, 0), hn::Set(di, 7));
-    const float* const base = &rays->uv.x;
-    return {hn::GatherIndex(d, base, index),     hn::GatherIndex(d, base + 1, index), hn::GatherIndex(d, base + 2, index),
-            hn::GatherIndex(d, base + 3, index), hn::GatherIndex(d, base + 4, index), hn::GatherIndex(d, base + 5, index),
-            hn::GatherIndex(d, base + 6, index)};
-}
 
 HWY_INLINE void set_up(const CastGrid& grid, const RayVectors& rays, Lanes& out) {
     const Floats d;
@@ -162,12 +157,6 @@ HWY_INLINE F precise_offset(F speed, F rest, F descent, F cell, F start) {
     for (std::size_t k = 0; k < lane_count; ++k) a[k] = static_cast<float>((static_cast<double>(a[k]) + b[k]) * c[k] - e[k] + f[k]);
     return hn::Load(d, a);
 #endif
-}
-
-template <class V, class M, class D, class T>
-HWY_INLINE std::size_t compress_to(V v, M mask, D d, T* to) {
-    hn::StoreU(hn::Compress(v, mask), d, to);
-    return hn::CountTrue(d, mask);
 }
 
 // Heights of nodes, gathered as aligned pairs: the address of `nodes` is a multiple of 4.

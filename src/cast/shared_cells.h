@@ -51,20 +51,21 @@ HWY_INLINE void put_cells(const CastGrid& grid, const Bundle& bundle, const Bund
                           const CellList& list, std::size_t count, NearestHit& nearest) {
     const Floats d;
     const unsigned u_shift = bundle.along_x ? 0 : block_level, v_shift = bundle.along_x ? block_level : 0;
-    const int next_p = bundle.along_x ? 1 : patch_pitch, next_q = bundle.along_x ? patch_pitch : 1;
+    const int next_p = bundle.along_x ? patch_step : 1, next_q = bundle.along_x ? 1 : patch_step;
+    const int p_floats = bundle.along_x ? patch_step : grid.patch_pitch, q_floats = bundle.along_x ? grid.patch_pitch : patch_step;
     const F enter_p = hn::Mul(lanes.back_p, hn::Set(d, -lanes.near_p)),
             leave_p = hn::Mul(lanes.back_p, hn::Set(d, lanes.near_p - 1));
     const F enter_q = hn::Mul(lanes.back_q, hn::Set(d, -lanes.near_q)),
             leave_q = hn::Mul(lanes.back_q, hn::Set(d, lanes.near_q - 1));
     const FMask all = hn::Eq(hn::Zero(d), hn::Zero(d));
+    NearestHit near = nearest;
     for (std::size_t k = 0; k < count; ++k) {
         const auto entry = static_cast<unsigned>(list.cells[k]);
         const unsigned n = entry / block_cells, cell = entry % block_cells;
         const auto u = static_cast<std::int32_t>(cell >> u_shift & (block_side - 1)),
                    v = static_cast<std::int32_t>(cell >> v_shift & (block_side - 1));
         const float a_near = blocks.a_near[n];
-        const float* const patch =
-            grid.patches + static_cast<std::size_t>(blocks.block[n]) * patch_floats + cell + cell / block_side;
+        const float* const patch = grid.patches + (blocks.patch[n] + u * p_floats + v * q_floats);
         const F descent = lanes.descent_at(a_near);
         const F x = lanes.place_p(descent, (bundle.forward ? a_near : -a_near - block_side) + static_cast<float>(u));
         const F y = lanes.place_q(descent, blocks.q_low[n] + static_cast<float>(v));
@@ -72,10 +73,11 @@ HWY_INLINE void put_cells(const CastGrid& grid, const Bundle& bundle, const Bund
             hn::Max(hn::Max(hn::MulAdd(x, lanes.back_p, enter_p), hn::MulAdd(y, lanes.back_q, enter_q)), hn::Neg(descent));
         const F exit = hn::Min(hn::Min(hn::MulAdd(x, lanes.back_p, leave_p), hn::MulAdd(y, lanes.back_q, leave_q)),
                                hn::Sub(lanes.descent_end, descent));
-        nearest.put(all, hn::Set(d, patch[0]), hn::Set(d, patch[next_p]), hn::Set(d, patch[next_q]),
-                    hn::Set(d, patch[next_p + next_q]), x, y, enter, exit, descent, hn::Sub(lanes.z_start, descent), lanes.speed_p,
-                    lanes.speed_q, lanes.speed_pq);
+        near.put(all, hn::Set(d, patch[0]), hn::Set(d, patch[next_p]), hn::Set(d, patch[next_q]),
+                 hn::Set(d, patch[next_p + next_q]), x, y, enter, exit, descent, hn::Sub(lanes.z_start, descent), lanes.speed_p,
+                 lanes.speed_q, lanes.speed_pq);
     }
+    nearest = near;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -31,7 +31,7 @@ HWY_INLINE I wrapped(I v, std::int32_t size) {
     if ((size & (size - 1)) == 0) return hn::And(v, hn::Set(di, size - 1));
     const F middle = hn::Add(hn::ConvertTo(d, v), hn::Set(d, 0.5f));
     const F periods = hn::Floor(hn::Mul(middle, hn::Set(d, 1.0f / static_cast<float>(size))));
-    return hn::Sub(v, hn::Mul(hn::ConvertTo(di, periods), hn::Set(di, size)));
+    return hn::Sub(v, hn::Mul(whole(periods), hn::Set(di, size)));
 }
 
 HWY_INLINE std::uint32_t bits_of(FMask mask) {
@@ -62,8 +62,8 @@ HWY_INLINE void test_slices(const CastGrid& grid, const Bundle& bundle, std::int
         hn::MulAdd(near, hn::Set(d, bundle.lean_low), hn::Set(d, bundle.side_low + block_side * std::min(bundle.lean_low, 0.0f)));
     const F high_q = hn::MulAdd(near, hn::Set(d, bundle.lean_high),
                                 hn::Set(d, bundle.side_high + block_side * std::max(bundle.lean_high, 0.0f)));
-    const I row_low = hn::ShiftRight<block_level>(hn::ConvertTo(di, hn::Floor(low_q)));
-    const I row_high = hn::ShiftRight<block_level>(hn::ConvertTo(di, hn::Floor(high_q)));
+    const I row_low = hn::ShiftRight<block_level>(whole(hn::Floor(low_q)));
+    const I row_high = hn::ShiftRight<block_level>(whole(hn::Floor(high_q)));
     const I p = wrapped(hn::Add(start, hn::Mul(step, hn::Set(di, bundle.forward ? 1 : -1))), bundle.p_blocks);
     hn::Store(row_low, di, out.lowest_row);
     hn::Store(row_high, di, out.highest_row);
@@ -93,6 +93,7 @@ constexpr std::size_t most_blocks = most_rows + few_blocks + lane_count;
 // Blocks that the bundle crosses without clearing them.
 struct BlockList {
     std::int32_t block[most_blocks];  // index in the grid
+    std::int32_t patch[most_blocks];  // of its first cell
     float q_low[most_blocks];         // relative to the bundle's block_q
     float a_near[most_blocks];        // of the slice
 };
@@ -106,6 +107,8 @@ HWY_INLINE std::size_t find_blocks(const CastGrid& grid, const Bundle& bundle, c
     const std::int32_t crossed = group.highest_row[slice] - group.lowest_row[slice];
     const std::int32_t q_first = in_period(bundle.block_q + group.lowest_row[slice], bundle.q_blocks);
     const std::int32_t p_pitch = bundle.along_x ? 1 : bundle.q_blocks, q_pitch = bundle.along_x ? bundle.p_blocks : 1;
+    const std::int32_t p_floats = block_side * (bundle.along_x ? patch_step : grid.patch_pitch),
+                       q_floats = block_side * (bundle.along_x ? grid.patch_pitch : patch_step);
     const std::int32_t column = group.column[slice];
     const float* const tops = (bundle.along_x ? grid.tops_up : grid.tops_right) +
                               static_cast<std::size_t>(column) * static_cast<std::size_t>(bundle.q_blocks + tops_slack) + q_first;
@@ -118,6 +121,8 @@ HWY_INLINE std::size_t find_blocks(const CastGrid& grid, const Bundle& bundle, c
         const F q_low = hn::ConvertTo(d, hn::ShiftLeft<block_level>(hn::Add(row, hn::Set(di, group.lowest_row[slice]))));
         hn::StoreU(hn::Set(d, a_near), d, out.a_near + count);
         hn::StoreU(hn::Compress(block, left), di, out.block + count);
+        const I patch = hn::Add(hn::Mul(q, hn::Set(di, q_floats)), hn::Set(di, column * p_floats));
+        hn::StoreU(hn::Compress(patch, left), di, out.patch + count);
         hn::StoreU(hn::Compress(q_low, hn::RebindMask(d, left)), d, out.q_low + count);
         count += hn::CountTrue(di, left);
     }

@@ -6,7 +6,7 @@
 #define RELIEVO_CAST_WALK_ALONE_H
 #endif
 
-#include "cast/lanes.h"
+#include "cast/fours.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace relievo {
@@ -64,16 +64,13 @@ HWY_INLINE LaneHits walk_alone(const CastGrid& grid, const Lanes& lanes) {
         FMask waits = hn::And(hn::AndNot(skip, in_cell), walking);
         const std::size_t waiting = hn::CountTrue(d, waits);
         if (waiting != 0 && (waiting * 4 >= n || hn::AllFalse(d, hn::AndNot(waits, walking)))) {
-            // The cell's place in its block, and the block's.
-            const I block = hn::Add(hn::Mul(hn::ShiftRight<block_level>(wrapped_y), hn::Set(di, grid.block_columns)),
-                                    hn::ShiftRight<block_level>(wrapped_x));
-            const I three = hn::Set(di, block_side - 1);
-            const I in_block = hn::Add(hn::Mul(hn::And(wrapped_y, three), hn::Set(di, patch_pitch)), hn::And(wrapped_x, three));
-            const I at = hn::IfThenElseZero(hn::RebindMask(di, waits), hn::Add(hn::ShiftLeft<5>(block), in_block));
+            alignas(64) std::int32_t place[lane_count];
+            hn::Store(hn::IfThenElseZero(hn::RebindMask(di, waits), hn::Add(hn::Mul(wrapped_y, hn::Set(di, grid.patch_pitch)),
+                                                                            hn::Mul(wrapped_x, hn::Set(di, patch_step)))),
+                      di, place);
             const float* const patches = grid.patches;
-            const F h00 = hn::GatherIndex(d, patches, at), b = hn::Sub(hn::GatherIndex(d, patches + 1, at), h00);
-            const F h01 = hn::GatherIndex(d, patches + patch_pitch, at), c = hn::Sub(h01, h00);
-            const F twist = hn::Sub(hn::Sub(hn::GatherIndex(d, patches + patch_pitch + 1, at), h01), b);
+            const auto [h00, h01, h10, h11] = load_fours([&](std::size_t lane) HWY_ATTR { return patches + place[lane]; });
+            const F b = hn::Sub(h10, h00), c = hn::Sub(h01, h00), twist = hn::Sub(hn::Sub(h11, h01), b);
             const F x =
                 precise_offset(speed_x, hn::Load(d, lanes.x.rest), descent, hn::ConvertTo(d, hn::Add(wrapped_x, base_x)), start_x);
             const F y =
