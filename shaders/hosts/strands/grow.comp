@@ -33,18 +33,32 @@ void main() {
         push = texelFetch(pushes, int(strand)).xyz;
         push -= normal * dot(push, normal);
     }
-    vec3 sway = vec3(0.0f), place = root;
-    for (int k = 0; k <= coat.pieces; ++k) {
+    // strand_shape by half angles: offset = level sinc(h) (cos(start + h) normal + sin(start + h) along), where h = turn level / 2 grows by the same
+    // step from point to point. Software devices take sines one by one: one turn by that step, applied again and again, does without them.
+    float combed = min(length(comb), 1.0f), start = coat.tilt * combed, half_step = 0.5f * coat.bend * combed * tip / float(coat.pieces);
+    vec3 along = combed > 1e-4f ? comb / length(comb) : vec3(0.0f);
+    vec3 ahead = normal * cos(start) + along * sin(start), aside = along * cos(start) - normal * sin(start);
+    float step_cos = cos(half_step), step_sin = sin(half_step), half_cos = 1.0f, half_sin = 0.0f;
+
+    points[point_index(strand, 0)] = vec4(root, 0.0f);
+    vec3 place = root;
+    for (int k = 1; k <= coat.pieces; ++k) {
         float level = tip * float(k) / float(coat.pieces);
         // The place on the skin whose lock has carried the root here: place = root + sway(place), from where the level below found it.
         float swing = coat.lock * level * sqrt(level) * full;
-        sway = 1.5f * texture(lock_noise, place * coat.lock_frequency).xyz;
+        vec3 sway = 1.5f * texture(lock_noise, place * coat.lock_frequency).xyz;
         sway -= normal * dot(sway, normal);
         place = root + sway * swing;
-        StrandShape shape;
-        if (pushed != 0u) shape = pushed_shape(normal, comb, push, level, coat.tilt, coat.bend);
-        else shape = strand_shape(normal, comb, level, coat.tilt, coat.bend);
-        vec3 at = place + shape.offset * full + lean * (level * full);
+        vec3 offset;
+        if (pushed != 0u) offset = pushed_shape(normal, comb, push, level, coat.tilt, coat.bend).offset;
+        else {
+            float turned = half_cos * step_cos - half_sin * step_sin;
+            half_sin = half_sin * step_cos + half_cos * step_sin;
+            half_cos = turned;
+            float h = max(half_step * float(k), 1e-6f);
+            offset = (ahead * half_cos + aside * half_sin) * (level * (half_step > 1e-6f ? half_sin / h : 1.0f));
+        }
+        vec3 at = place + offset * full + lean * (level * full);
         if (curled != 0u) {
             float turn = 6.2831853f * (7.0f * chance.y + coat.curl_turns * level);
             at += (side * cos(turn) + other * sin(turn)) * (coat.curl_radius * min(4.0f * level, 1.0f));
