@@ -3,6 +3,8 @@
 #ifndef RELIEVO_SHARED_COAT_H
 #define RELIEVO_SHARED_COAT_H
 
+const int tile_px = 32;  // of a picture that strands are plotted into: light is computed in tiles that hold some
+
 struct CoatUniforms {
     float eye_x, eye_y, eye_z;
     float pixel_angle;              // width of a pixel at distance 1

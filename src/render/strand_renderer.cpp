@@ -37,13 +37,18 @@ struct Vertex {
 };
 
 // Names of the set's bindings, as shaders/hosts/strands has them.
-enum Binding : std::uint32_t { coat_binding, places_binding, natures_binding, points_binding, seen_binding, noise_binding, light_binding, skin_binding, grown_binding, pushes_binding, bindings };
+enum Binding : std::uint32_t { coat_binding, places_binding, natures_binding, points_binding, seen_binding, noise_binding, light_binding, skin_binding, grown_binding, pushes_binding, tiles_binding, bindings };
+
+std::uint32_t tile_count(vk::Extent2D picture) {
+    constexpr std::uint32_t side = tile_px;
+    return ((picture.width + side - 1) / side) * ((picture.height + side - 1) / side);
+}
 
 // The picture and what it is made from; kept while the size stays.
 struct Target {
     vk::Extent2D extent;
     gpu::Image colour, depth;
-    gpu::Buffer seen, texels;
+    gpu::Buffer seen, tiles, texels;  // tiles: whether they hold strands
 };
 
 }  // namespace
@@ -70,14 +75,13 @@ struct StrandRenderer::State {
     int grown_pieces = 0;         // of the points that stand in their buffer; 0: none
     FurFrames empty;              // frames of zeros, made beforehand
     CoatUniforms coat{};
-    Vec3d low, high;       // of all that strands may reach
     std::optional<FurMatrices> lit_by;  // what the light's picture was drawn with
 
     State(const std::string& choice, bool validation) : device(gpu::DeviceSettings{.choice = choice, .validation = validation}) {
         if (!device.has_wide_atomics()) throw Error("plot strands", "on " + device.info().name, "it has no atomic minima of 64 bits in buffers", "take another device (--device software), or --mode shells");
         using Type = vk::DescriptorType;
         constexpr std::array<Type, bindings> types{Type::eUniformBuffer,        Type::eUniformTexelBuffer,   Type::eUniformTexelBuffer,   Type::eUniformTexelBuffer, Type::eStorageBuffer,
-                                                   Type::eCombinedImageSampler, Type::eCombinedImageSampler, Type::eCombinedImageSampler, Type::eStorageBuffer,      Type::eUniformTexelBuffer};
+                                                   Type::eCombinedImageSampler, Type::eCombinedImageSampler, Type::eCombinedImageSampler, Type::eStorageBuffer,      Type::eUniformTexelBuffer, Type::eStorageBuffer};
         constexpr auto stages_ = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment | vk::ShaderStageFlagBits::eCompute;
         std::vector<vk::DescriptorSetLayoutBinding> layouts;
         for (std::uint32_t b = 0; b < bindings; ++b) layouts.push_back({.binding = b, .descriptorType = types[b], .descriptorCount = 1, .stageFlags = stages_});
@@ -123,7 +127,7 @@ struct StrandRenderer::State {
         });
         light_depth = gpu::make_image(device, depth_format, {light_size, light_size}, 1, vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled);
         coat_buffer = gpu::make_buffer(device, sizeof(CoatUniforms), vk::BufferUsageFlagBits::eUniformBuffer);
-        const vk::DescriptorPoolSize sizes[] = {{Type::eUniformBuffer, 1}, {Type::eUniformTexelBuffer, 4}, {Type::eStorageBuffer, 2}, {Type::eCombinedImageSampler, 3}};
+        const vk::DescriptorPoolSize sizes[] = {{Type::eUniformBuffer, 1}, {Type::eUniformTexelBuffer, 4}, {Type::eStorageBuffer, 3}, {Type::eCombinedImageSampler, 3}};
         pool = {device.handle(), vk::DescriptorPoolCreateInfo{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, .maxSets = 1, .poolSizeCount = 4, .pPoolSizes = sizes}};
         stamps = {device.handle(), vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp, .queryCount = 7}};
     }
@@ -160,15 +164,6 @@ struct StrandRenderer::State {
         texels(natures, natures_view, model.strands->natures, vk::Format::eR32G32Uint);
         lit_by.reset();
         const Coat& c = model.coat;
-        Vec3f from = model.strands->places[0].root, until = from;
-        for (const RootedStrands::Place& place : model.strands->places) {
-            from = {std::min(from.x, place.root.x), std::min(from.y, place.root.y), std::min(from.z, place.root.z)};
-            until = {std::max(until.x, place.root.x), std::max(until.y, place.root.y), std::max(until.z, place.root.z)};
-        }
-        // Its length, what its lock sways (noise of 1.5 along each axis), what it leans beside and its helix.
-        const float farthest = c.length * (1 + 2.6f * c.lock + 1.5f * c.spread) + (c.curl_radius + 2 * c.width) * model.spacing;
-        low = Vec3d(from - Vec3f(farthest));
-        high = Vec3d(until + Vec3f(farthest));
         coat = coat_uniforms(c, model.spacing);
         coat.strands = static_cast<int>(model.strands->places.size());
         grown_pieces = 0;
@@ -202,35 +197,16 @@ struct StrandRenderer::State {
                             .colour = gpu::make_image(device, colour_format, extent, 1, Usage::eColorAttachment | Usage::eTransferSrc),
                             .depth = gpu::make_image(device, depth_format, extent, 1, Usage::eDepthStencilAttachment | Usage::eSampled),
                             .seen = gpu::make_buffer(device, pixels * 8, vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst),
+                            .tiles = gpu::make_device_buffer(device, tile_count(extent) * 4, vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst),
                             .texels = gpu::make_buffer(device, pixels * 4, vk::BufferUsageFlagBits::eTransferDst)};
         }
-    }
-
-    // The part of the picture where strands may be.
-    vk::Rect2D reached(const FurView& view) const {
-        const Camera::Axes axes = view.camera.camera.axes();
-        const double scale = view.camera.height / (2 * std::tan(view.camera.camera.fov_y_rad / 2));
-        const Vec2d size(view.camera.width, view.camera.height);
-        Vec2d least = size, most;
-        for (int corner = 0; corner < 8; ++corner) {
-            const Vec3d p = Vec3d(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z) - view.camera.camera.eye;
-            const double away = -dot(p, axes.back);
-            if (away < view.camera.near) return {{0, 0}, target->extent};
-            const double x = size.x / 2 + dot(p, axes.right) / away * scale, y = size.y / 2 - dot(p, axes.up) / away * scale;
-            least = {std::min(least.x, x), std::min(least.y, y)};
-            most = {std::max(most.x, x), std::max(most.y, y)};
-        }
-        // Two pixels for what widths and moved samples add.
-        const auto pixel = [](double v, double limit) { return static_cast<std::int32_t>(std::clamp(v, 0.0, limit)); };
-        const std::int32_t x0 = pixel(std::floor(least.x) - 2, size.x), x1 = pixel(std::ceil(most.x) + 2, size.x), y0 = pixel(std::floor(least.y) - 2, size.y), y1 = pixel(std::ceil(most.y) + 2, size.y);
-        return {{x0, y0}, {static_cast<std::uint32_t>(std::max(x1 - x0, 0)), static_cast<std::uint32_t>(std::max(y1 - y0, 0))}};
     }
 
     void describe() {
         sets = nullptr;
         sets = vk::raii::DescriptorSets(device.handle(), vk::DescriptorSetAllocateInfo{.descriptorPool = *pool, .descriptorSetCount = 1, .pSetLayouts = &*set_layout});
         const auto whole = [](const gpu::Buffer& b) { return vk::DescriptorBufferInfo{.buffer = *b.handle, .range = VK_WHOLE_SIZE}; };
-        const vk::DescriptorBufferInfo uniforms = whole(coat_buffer), seen = whole(target->seen), grown = whole(points);
+        const vk::DescriptorBufferInfo uniforms = whole(coat_buffer), seen = whole(target->seen), tiles = whole(target->tiles), grown = whole(points);
         const vk::BufferView views[] = {*places_view, *natures_view, *points_view};
         const auto sampled = [](const vk::raii::Sampler& s, const gpu::Image& i) { return vk::DescriptorImageInfo{.sampler = *s, .imageView = *i.view, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal}; };
         const vk::DescriptorImageInfo images[] = {sampled(volume_sampler, noise), sampled(light_sampler, light_depth), sampled(exact_sampler, target->depth)};
@@ -244,6 +220,7 @@ struct StrandRenderer::State {
         // Programs that look at no pushes must have something bound all the same.
         const vk::BufferView pushed = *pushes_view ? *pushes_view : *points_view;
         write(pushes_binding, Type::eUniformTexelBuffer).pTexelBufferView = &pushed;
+        write(tiles_binding, Type::eStorageBuffer).pBufferInfo = &tiles;
         write(grown_binding, Type::eStorageBuffer).pBufferInfo = &grown;
         device.handle().updateDescriptorSets(writes, {});
     }
@@ -303,13 +280,12 @@ struct StrandRenderer::State {
         gpu::transition(commands, t.depth, vk::ImageLayout::eDepthAttachmentOptimal, vk::ImageLayout::eShaderReadOnlyOptimal);
     }
 
-    void record_shade(const vk::raii::CommandBuffer& commands, const FurMatrices& push, vk::Rect2D part) const {
+    void record_shade(const vk::raii::CommandBuffer& commands, const FurMatrices& push) const {
         const Target& t = *target;
         const vk::RenderingAttachmentInfo onto{.imageView = *t.colour.view, .imageLayout = vk::ImageLayout::eColorAttachmentOptimal, .loadOp = vk::AttachmentLoadOp::eLoad, .storeOp = vk::AttachmentStoreOp::eStore};
         commands.beginRendering({.renderArea = {{0, 0}, t.extent}, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &onto});
         bind_drawing(commands, shade, push, t.extent);
-        commands.setScissor(0, part);
-        commands.draw(4, 1, 0, 0);
+        commands.draw(tile_count(t.extent) * 6, 1, 0, 0);
         commands.endRendering();
     }
 
@@ -317,8 +293,6 @@ struct StrandRenderer::State {
         const FurPass moved = fur_pass(view, pass, coat.fur_length);
         coat.sample_shift = moved.sample_shift;
         std::memcpy(coat_buffer.mapped, &coat, sizeof coat);
-        const vk::Rect2D part = reached(view);
-        const vk::DeviceSize row = vk::DeviceSize{target->extent.width} * 8;
         device.run([&](const vk::raii::CommandBuffer& commands) {
             std::uint32_t stamp = 0;
             const auto mark = [&] { commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *stamps, stamp++); };
@@ -328,14 +302,15 @@ struct StrandRenderer::State {
             mark();
             record_skin(commands, moved.eye);
             mark();
-            if (part.extent.height > 0) commands.fillBuffer(*target->seen.handle, row * static_cast<std::uint32_t>(part.offset.y), row * part.extent.height, 0xffffffffu);
+            commands.fillBuffer(*target->seen.handle, 0, VK_WHOLE_SIZE, 0xffffffffu);
+            commands.fillBuffer(*target->tiles.handle, 0, VK_WHOLE_SIZE, 0);
             if (grown_pieces == 0) dispatch(commands, grow[(coat.curl_radius > 0 ? 1u : 0u) + (*pushes_view ? 2u : 0u)], moved.eye);
             gpu::full_barrier(commands);
             mark();
             dispatch(commands, plot, moved.eye);
             gpu::full_barrier(commands);
             mark();
-            record_shade(commands, moved.eye, part);
+            record_shade(commands, moved.eye);
             mark();
             gpu::transition(commands, target->colour, vk::ImageLayout::eColorAttachmentOptimal, vk::ImageLayout::eTransferSrcOptimal);
             gpu::read_back(commands, target->colour, target->texels);

@@ -24,3 +24,6 @@ bool is_guard(vec2 chance) { return chance.y < coat.guard_hairs; }
 
 // Points of all strands, level by level: `coat.pieces` + 1 levels of `coat.strands` points; the fourth number is the sway of the lock there.
 int point_index(uint strand, int level) { return level * coat.strands + int(strand); }
+
+// Tiles of the picture, row by row.
+int tiles_across() { return (coat.width_px + tile_px - 1) / tile_px; }

@@ -13,6 +13,7 @@ layout(set = 0, binding = 2) uniform usamplerBuffer natures;
 layout(set = 0, binding = 3) uniform samplerBuffer points;
 layout(set = 0, binding = 4) buffer Seen { uint64_t seen[]; };
 layout(set = 0, binding = 7) uniform sampler2D skin_depth;
+layout(set = 0, binding = 10) writeonly buffer Tiles { uint holds_strands[]; };
 
 vec4 projected(uint strand, int level) {
     vec4 p = to_clip * vec4(texelFetch(points, point_index(strand, level)).xyz, 1.0f);
@@ -46,6 +47,7 @@ void main() {
     vec4 from = projected(strand, 0);
     float from_radius = radius / (coat.pixel_angle * from.w);
     bool open = from.w > 1e-3f && from_radius > keep * thinnest;
+    vec2 least = vec2(1e9f), most = vec2(-1e9f);  // pixels, of what is plotted
     for (int k = 1; k <= coat.pieces && open; ++k) {
         float way = float(k) / float(coat.pieces), way4 = way * way;
         way4 *= way4;
@@ -65,6 +67,9 @@ void main() {
         int size = flat_ ? coat.width_px : coat.height_px, other_size = flat_ ? coat.height_px : coat.width_px;
         int first = max(int(ceil(min(a0, a1))), 0), last = min(int(ceil(max(a0, a1))), size);
         int step_a = flat_ ? 1 : coat.width_px, step_b = flat_ ? coat.width_px : 1;
+        float beside = 1.4143f * max(max(from_radius, to_radius), thinnest);
+        least = min(least, min(from.xy, to.xy) - beside);
+        most = max(most, max(from.xy, to.xy) + beside);
         // One loop over the pixels of all rows, because software devices go through it as often as the longest of eight strands asks for.
         uint64_t key = 0ul;
         int j = 0, high = 0;
@@ -84,5 +89,14 @@ void main() {
         open = end >= 1.0f;
         from = to;
         from_radius = to_radius;
+    }
+    ivec2 size = ivec2(coat.width_px, coat.height_px) - 1;
+    ivec2 low = ivec2(clamp(least, vec2(0.0f), vec2(size))) / tile_px, high = ivec2(clamp(most, vec2(0.0f), vec2(size))) / tile_px;
+    if (most.x < least.x) return;
+    ivec2 at = low;
+    while (at.y <= high.y) {
+        holds_strands[at.y * tiles_across() + at.x] = 1u;
+        bool wraps = at.x == high.x;
+        at = wraps ? ivec2(low.x, at.y + 1) : ivec2(at.x + 1, at.y);
     }
 }
