@@ -14,6 +14,9 @@ namespace {
 // Within this share of the wanted count it is reached.
 constexpr double near_enough = 0.01;
 
+// Faces for each one wanted that clusters leave to the collapse of edges, which then still has a choice.
+constexpr std::size_t left_by_clusters = 5;
+
 std::vector<std::uint32_t> collapse(const std::vector<Vec3f>& positions, const std::vector<std::uint32_t>& indices, const SimplifyTarget& target,
                                     double& error) {
     std::vector<std::uint32_t> coarse(indices.size());
@@ -22,6 +25,16 @@ std::vector<std::uint32_t> collapse(const std::vector<Vec3f>& positions, const s
     const float limit = target.error > 0 ? static_cast<float>(target.error) : 1.0f;
     coarse.resize(meshopt_simplify(coarse.data(), indices.data(), indices.size(), &positions[0].x, positions.size(), sizeof(Vec3f),
                                    target.faces * 3, limit, 0, &reached));
+    error = reached;
+    return coarse;
+}
+
+// One of the vertices in each cell of a grid, whose width is chosen by the count, stands for the others.
+std::vector<std::uint32_t> clustered(const Mesh& mesh, std::size_t faces, double& error) {
+    std::vector<std::uint32_t> coarse(mesh.indices.size());
+    float reached = 0;
+    coarse.resize(meshopt_simplifySloppy(coarse.data(), mesh.indices.data(), mesh.indices.size(), &mesh.positions[0].x, mesh.positions.size(), sizeof(Vec3f),
+                                         faces * 3, 1.0f, &reached));
     error = reached;
     return coarse;
 }
@@ -59,8 +72,10 @@ SimplifiedMesh simplified(const Mesh& mesh, const SimplifyTarget& target, int th
     SimplifiedMesh result;
     result.mesh = mesh;
     if (mesh.indices.empty() || (target.faces >= mesh.faces())) return result;
-    double error = 0;
-    std::vector<std::uint32_t> coarse = collapse(mesh.positions, mesh.indices, target, error);
+    double error = 0, before = 0;
+    const bool cluster = target.fast && target.faces > 0 && mesh.faces() > 2 * left_by_clusters * target.faces;
+    std::vector<std::uint32_t> coarse = collapse(mesh.positions, cluster ? clustered(mesh, left_by_clusters * target.faces, before) : mesh.indices, target, error);
+    error += before;
     if (target.faces > 0 && static_cast<double>(coarse.size()) > static_cast<double>(target.faces * 3) * (1 + near_enough)) {
         double more = 0;
         std::vector<std::uint32_t> coarser = collapse_without_seams(mesh, coarse, target, more, threads);

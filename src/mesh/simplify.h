@@ -11,6 +11,8 @@ namespace relievo {
 struct SimplifyTarget {
     std::size_t faces = 0;  // stop at so many; 0: no count, stop at the error
     double error = 0;       // largest deviation, in shares of the mesh's largest extent, as the quadrics estimate it; 0: no limit
+    bool fast = false;      // with `faces`: meshes of many more are first cut down to five times as many by joining what lies in one cell of
+                            // a grid (Rossignac and Borrel 1993), which may also join what only lies near
 };
 
 struct SimplifiedMesh {

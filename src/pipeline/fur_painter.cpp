@@ -43,16 +43,26 @@ struct LayerMesh {
     double off = 0;  // its worst distance from the mesh it stands for
 };
 
-LayerMesh layer_mesh(const GrownFur& fur, const Coat& coat, const MeshView& view, int threads) {
+// Plotted strands need the skin for what it hides, and as the surface that light meets, which is smooth where the fur is long: bumps
+// smaller than its length only throw shadows that traced strands do not have.
+std::size_t skin_faces(const MeshView& view, const Coat& coat) {
+    constexpr double faces = 16, least = 2000;  // on the unit sphere, where each has 0.8 squares of the fur's length
+    const double length = std::max(static_cast<double>(coat.length), 1e-3);
+    return std::min(layer_faces(view), static_cast<std::size_t>(std::max(faces / (length * length), least)));
+}
+
+LayerMesh layer_mesh(const GrownFur& fur, FurKind kind, const Coat& coat, const MeshView& view, int threads) {
     // Roots must be found from the layers, and finding them farther off costs time: where faces would be off by more than a fifth of the
     // fur's length, there are more of them. Almost everywhere they are off by less than half of that worst case.
     const bool carries = !fur.lengths.empty() || !fur.painted.empty();
     const Mesh carrier = carries ? carrying(fur.mesh, fur.lengths, fur.painted) : Mesh{};
     const Mesh& skin = carries ? carrier : fur.mesh;
     SimplifiedMesh simpler;
-    const std::size_t faces = layer_faces(view);
+    // Where skin is bare it is seen.
+    const bool covered = kind == FurKind::strands && fur.bare == 0;
+    const std::size_t faces = covered ? skin_faces(view, coat) : layer_faces(view);
     const bool many = skin.faces() > faces;
-    if (many) simpler = simplified(skin, {.faces = faces, .error = static_cast<double>(coat.length) / 10}, threads);
+    if (many) simpler = simplified(skin, {.faces = faces, .error = static_cast<double>(coat.length) / 10, .fast = covered}, threads);
     LayerMesh layers{.mesh = many ? std::move(simpler.mesh) : skin, .comb = {}, .lengths = {}, .off = simpler.estimated_error};
     layers.mesh.normals = continuous_normals(layers.mesh, NormalMode::angle, threads);
     layers.mesh = refined(std::move(layers.mesh), faces);
@@ -86,7 +96,7 @@ FurPainter::Loaded FurPainter::load(GrownFur& fur, const Coat& coat, const FurFo
     skin_vertex_.clear();
     if (strands_ && fur.mesh.normals.empty()) fur.mesh.normals = continuous_normals(fur.mesh, NormalMode::angle, threads);
     // What simplifies a mesh has one thread: strands get the rest meanwhile.
-    auto layering = std::async(std::launch::async, [&grown = std::as_const(fur), &coat, &view, threads] { return layer_mesh(grown, coat, view.camera, threads); });
+    auto layering = std::async(std::launch::async, [&grown = std::as_const(fur), &coat, &view, kind = kind_, threads] { return layer_mesh(grown, kind, coat, view.camera, threads); });
     if (strands_) {
         skin_comb_ = comb_of(fur, coat, threads);
         strands_on_skin_ = rooted_strands(fur.mesh, skin_comb_, fur.lengths, fur.roots, threads);

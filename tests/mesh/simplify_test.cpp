@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 
@@ -93,6 +94,19 @@ TEST(Simplify, ReachesErrors) {
     const SimplifiedMesh flat = simplified(test::grid(30), {.error = 1e-4});
     EXPECT_LT(flat.mesh.faces(), 200u);
     EXPECT_LT(surface_distance(test::grid(30), flat.mesh, 20000).largest, 1e-3 * 30);
+}
+
+// Clusters first: the count is reached all the same, vertices stay those of the mesh, and it is about as near.
+TEST(Simplify, FastReachesCountsToo) {
+    const Mesh scan = made_up_scan({.faces = 60000});
+    for (const std::size_t wanted : {3000u, 700u}) {
+        const SimplifiedMesh fast = simplified(scan, {.faces = wanted, .fast = true}), slow = simplified(scan, {.faces = wanted});
+        EXPECT_NEAR(static_cast<double>(fast.mesh.faces()), static_cast<double>(wanted), 0.02 * static_cast<double>(wanted));
+        EXPECT_NE(fast.mesh.indices, slow.mesh.indices);
+        for (const Vec3f& p : fast.mesh.positions) ASSERT_NE(std::ranges::find(scan.positions, p), scan.positions.end());
+        EXPECT_LT(surface_distance(scan, fast.mesh, 20000).root_mean_square, 2 * surface_distance(scan, slow.mesh, 20000).root_mean_square);
+    }
+    EXPECT_EQ(simplified(test::sphere(4), {.faces = 1000, .fast = true}).mesh.indices, simplified(test::sphere(4), {.faces = 1000}).mesh.indices);  // not many more
 }
 
 TEST(Simplify, SeamsDoNotHoldItUp) {
