@@ -34,8 +34,7 @@ void fur(benchmark::State& state) {
     const Coat coat;
     FurPainter plotted(FurKind::strands, ""), shells(FurKind::shells, "");
     FurView view{.camera = view_of_sphere({0, 0, 0}, 1 + static_cast<double>(coat.length) * 0.6, 640, 400), .layers = 16, .passes = 1};
-    FurView pieces = view;
-    pieces.layers = layers_for(FurKind::strands, view.camera, coat);
+    const FurView pieces = with_layers(view, layers_for(FurKind::strands, view.camera, coat));
     std::vector<double> roots, load_plotted, load_shells, frame_plotted, frame_shells;
     for (auto _ : state) {
         GrownFur grown = grown_fur(mesh, coat, {});

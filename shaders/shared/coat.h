@@ -11,7 +11,7 @@ struct CoatUniforms {
     float key_x, key_y, key_z;      // unit, toward the key light
     float extinction;               // of the key light in the fur, per unit of length
     float rim_x, rim_y, rim_z;      // unit, toward the light behind
-    int layers;
+    float layers;                   // of shells, growing by degrees: fur/layer_top.glsl
     float fur_length;               // of the longest strand
     float tilt, bend;               // angle from the normal at the root, and what is added up to the tip, radians, where combed fully
     float spread;                   // of single strands, in lengths at the tip

@@ -42,9 +42,9 @@ struct CoatPainter::State {
             grown.mesh.normals = continuous_normals(grown.mesh, NormalMode::angle, threads);
             grown.lengths.assign(grown.mesh.positions.size(), 0.0f);
         }
-        const FurView view{.camera = camera, .layers = count > 0 ? count : layers_for(kind, camera, coat)};
+        const FurView view = with_layers({.camera = camera}, count > 0 ? count : layers_for(kind, camera, coat));
         strands->load(grown, coat, {}, view, threads);
-        return {.faces = grown.mesh.faces(), .layers = view.layers};
+        return {.faces = grown.mesh.faces(), .layers = layers_of(view)};
     }
 
     Worn wear_classic(Mesh mesh, int count, int threads) {
@@ -56,7 +56,7 @@ struct CoatPainter::State {
         colour = classic_colour_map(classic);
         light = classic.light;
         layers->load(classic_model(classic, skin, fur, colour));
-        return {.faces = skin.faces(), .layers = count > 0 ? count : classic.layers};
+        return {.faces = skin.faces(), .layers = static_cast<double>(count > 0 ? count : classic.layers)};
     }
 
     Worn wear_lapped(Mesh mesh, int count, int threads) {
@@ -69,7 +69,7 @@ struct CoatPainter::State {
         dress = lapped_dress(skin, lapped);
         light = lapped.light;
         layers->load(dress.model(lapped));
-        return {.faces = skin.faces(), .layers = count > 0 ? count : lapped.layers};
+        return {.faces = skin.faces(), .layers = static_cast<double>(count > 0 ? count : lapped.layers)};
     }
 };
 

@@ -28,7 +28,7 @@ public:
 
     struct Worn {
         std::size_t faces = 0;  // of the mesh on which it grew
-        int layers = 0;         // with which it is drawn
+        double layers = 0;      // with which it is drawn
     };
     // Grows as much of the coat as the mode can say. `layers` 0: as many as the mode chooses by itself. A coat without length or without
     // strands leaves the skin bare. Throws Error for meshes on which nothing can grow.

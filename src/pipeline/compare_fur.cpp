@@ -29,7 +29,7 @@ FurRow scored(CoatPainter& painter, const FurMode& mode, const Mesh& mesh, const
     row.mode = mode.id;
     const Timer timer;
     const CoatPainter::Worn worn = painter.wear(mesh, coat, view.camera, s.layers, s.threads);
-    view.layers = worn.layers;
+    view = with_layers(view, worn.layers);
     view.passes = 1;
     shown_fur(painter.draw(view));
     row.first_frame_ms = timer.ms();
@@ -41,7 +41,7 @@ FurRow scored(CoatPainter& painter, const FurMode& mode, const Mesh& mesh, const
     const CoatPainter::Counted counted = painter.counted(s.threads);
     row.faces = worn.faces;
     row.strands = counted.strands;
-    row.layers = worn.layers;
+    row.layers = view.layers;
     row.shared_texel_area = counted.evenness.shared_texel_area;
     row.errors = {.flip = score.flip, .coverage_error = score.coverage_error, .gaps = score.gaps, .density_p95_over_p5 = counted.evenness.density_p95_over_p5};
     row.budget = mode.budget;

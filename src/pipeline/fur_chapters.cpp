@@ -49,7 +49,7 @@ Truth traced_truth(int threads) {
 FurErrors drawn_figure(const FurMode& mode, const Truth& truth, const FurChaptersSettings& s) {
     CoatPainter painter(mode.kind, s.device);
     FurView view = truth.view;
-    view.layers = painter.wear(truth.mesh, truth.coat, view.camera, 0, s.threads).layers;
+    view = with_layers(view, painter.wear(truth.mesh, truth.coat, view.camera, 0, s.threads).layers);
     painter.fit_light(view, truth.traced);
     const FurFrames frames = painter.draw(view);
     write_png(s.out / "figures" / ("fur-mode-" + std::string(mode.id) + ".png"), side_by_side(shown_fur(frames), shown_fur(truth.traced)), FirstRow::top);

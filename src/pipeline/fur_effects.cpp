@@ -63,7 +63,7 @@ MeshView seen(double turned_rad, double side, int pixels) {
 }
 
 FurFrames drawn(CoatPainter& painter, Mesh mesh, const Coat& coat, FurView view) {
-    view.layers = painter.wear(std::move(mesh), coat, view.camera).layers;
+    view = with_layers(view, painter.wear(std::move(mesh), coat, view.camera).layers);
     return painter.draw(view);
 }
 

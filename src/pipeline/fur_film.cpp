@@ -53,7 +53,7 @@ FurView nearest_view(const FurView& view, const FurFilm& film, FurKind kind, con
     if (film.frames == 0) return view;
     const double nearest = std::min({film.dolly.first, film.dolly.last, 1.0}), farthest = std::max({film.dolly.first, film.dolly.last, 1.0});
     FurView seen = from_afar(view, nearest);
-    if (layers_adapt && farthest > 1) seen.layers = std::min(view.layers, layers_for(kind, from_afar(view, farthest).camera, coat));
+    if (layers_adapt && farthest > 1) seen = with_layers(seen, std::min(layers_of(view), layers_for(kind, from_afar(view, farthest).camera, coat)));
     return seen;
 }
 
@@ -66,7 +66,7 @@ std::optional<FurSteadiness> film_fur(const FilmedFur& filmed, const FurFilm& fi
     std::optional<Truth> truth;
     if (compares) truth.emplace(filmed, film, settings, threads);
     SteadinessMeter meter(passes, film.samples);
-    int layers_before = 0;
+    double layers_before = 0;
     for (int frame = 0; frame < film.frames; ++frame) {
         report(progress, "filming, frame " + std::to_string(frame + 1) + " of " + std::to_string(film.frames), static_cast<double>(frame) / film.frames);
         if (swing && frame > 0) swing->next_frame();
@@ -75,8 +75,8 @@ std::optional<FurSteadiness> film_fur(const FilmedFur& filmed, const FurFilm& fi
         if (swing) filmed.painter.push(swing->pushes());
         const double distance = distance_of(film, frame);
         FurView seen = turned(from_afar(filmed.view, distance), film.degrees * std::numbers::pi / 180 * frame / film.frames + (swing ? swing->angle() : 0.0));
-        if (filmed.layers_adapt && distance != 1) seen.layers = layers_for(filmed.painter.kind(), seen.camera, filmed.coat);
-        FilmedFrame now{.distance = distance, .layers = seen.layers, .pictures = {}, .reference = {}, .as_layered_before = {}};
+        if (filmed.layers_adapt && distance != 1) seen = with_layers(seen, layers_for(filmed.painter.kind(), seen.camera, filmed.coat));
+        FilmedFrame now{.distance = distance, .layers = layers_of(seen), .pictures = {}, .reference = {}, .as_layered_before = {}};
         for (std::size_t i = compares ? 0 : passes.size() - 1; i < passes.size(); ++i) {
             seen.passes = passes[i];
             now.pictures.push_back(filmed.painter.draw(seen));
@@ -84,14 +84,13 @@ std::optional<FurSteadiness> film_fur(const FilmedFur& filmed, const FurFilm& fi
         if (film.shown) film.shown(frame, shown_fur(now.pictures.back()));
         if (!compares) continue;
         now.reference = truth->traced(seen, film.samples);
-        if (frame > 0 && layers_before != seen.layers)
+        if (frame > 0 && layers_before != layers_of(seen))
             for (const int count : passes) {
-                FurView former = seen;
+                FurView former = with_layers(seen, layers_before);
                 former.passes = count;
-                former.layers = layers_before;
                 now.as_layered_before.push_back(filmed.painter.draw(former));
             }
-        layers_before = seen.layers;
+        layers_before = layers_of(seen);
         meter.add(std::move(now));
     }
     return meter.result();

@@ -111,7 +111,7 @@ FurPainter::Loaded FurPainter::load(GrownFur& fur, const Coat& coat, const FurFo
         strands_->load({.mesh = &layers_, .comb = &layers_comb_, .lengths = lengths, .strands = &strands_on_skin_, .coat = coat, .spacing = fur.spacing});
     } else {
         const auto start = std::chrono::steady_clock::now();
-        const StrandGrid grid = strand_grid(fur.mesh, fur.roots, {.reach = strand_reach(coat, fur.spacing, view.layers), .off = static_cast<float>(layers.off / 2), .threads = threads});
+        const StrandGrid grid = strand_grid(fur.mesh, fur.roots, {.reach = strand_reach(coat, fur.spacing, layers_of(view)), .off = static_cast<float>(layers.off / 2), .threads = threads});
         result.grid_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         shells_->load({.mesh = &layers_, .comb = &layers_comb_, .lengths = lengths, .pushes = nullptr, .grid = &grid, .coat = coat, .spacing = fur.spacing});
     }
@@ -149,16 +149,16 @@ void FurPainter::push(const std::vector<Vec3f>& pushes) {
 
 FurFrames FurPainter::draw(const FurView& view) { return strands_ ? strands_->draw(view) : shells_->draw(view); }
 
-int layers_for(FurKind kind, const MeshView& view, const Coat& coat) {
+double layers_for(FurKind kind, const MeshView& view, const Coat& coat) {
     if (kind == FurKind::strands) {
         // An arc of length l that turns by a is off n chords by l a / (8 n^2). Locks turn strands by about twice their sway; a turn of a
         // helix takes eight chords.
         const double turn = coat.bend + 2 * coat.lock, pixels = coat.length * pixels_per_unit(view);
         const double straight = std::ceil(std::sqrt(pixels * turn / (8 * 0.25))), curled = coat.curl_radius > 0 ? std::ceil(8 * coat.curl_turns) : 0;
-        return std::clamp(static_cast<int>(std::max(straight, curled)), 3, 64);
+        return std::clamp(std::max(straight, curled), 3.0, 64.0);
     }
     const double bend = std::max(coat.bend, 1e-3f), rise = coat.length * (std::sin(coat.tilt + bend) - std::sin(static_cast<double>(coat.tilt))) / bend;
-    return std::clamp(static_cast<int>(std::ceil(rise * pixels_per_unit(view) / 2)), 6, 48);
+    return std::clamp(rise * pixels_per_unit(view) / 2, 6.0, 48.0);
 }
 
 }  // namespace relievo

@@ -61,6 +61,6 @@ private:
 
 // As many layers as the fur needs in this picture. Of shells: one for every two pixels of its height; then little shows between them at
 // silhouettes. Of plotted strands, which are as many straight pieces: so many that none is off its curve by more than a quarter of a pixel.
-int layers_for(FurKind kind, const MeshView& view, const Coat& coat);
+double layers_for(FurKind kind, const MeshView& view, const Coat& coat);
 
 }  // namespace relievo

@@ -21,7 +21,7 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
     result.mode = settings.mode;
     FurView view;
     view.camera = view_of_sphere({0, 0, 0}, 1 + settings.coat.length * 0.6, settings.width, settings.height);
-    view.layers = settings.layers > 0 ? settings.layers : layers_for(settings.mode, view.camera, settings.coat);
+    view = with_layers(view, settings.layers > 0 ? settings.layers : layers_for(settings.mode, view.camera, settings.coat));
     view.passes = 1;
     // The device starts while the file is read.
     auto starting = std::async(std::launch::async, [&] {

@@ -16,6 +16,9 @@ struct FurChange {
     double layers = 0;     // of the picture, by the change of its number of layers alone: what pops
 };
 
+// Of what a step changes, the most that the number of layers may change by itself. Meant for steps of 4 % of the distance and less.
+inline constexpr double most_pop = 0.15;
+
 struct FurSteadiness {
     int samples = 0;       // rays a pixel of the traced strands: what is steadier than they are cannot be told from their noise
     struct Row {
@@ -23,12 +26,12 @@ struct FurSteadiness {
         FurChange mean;    // over the steps; of `layers` over those that change them
         double worst_over_median = 1;  // of the error, the step that changes most over the median step
         double pop = 0;    // of the steps that change the number of layers, the largest share that this alone has in the picture's change
-        bool inside() const { return mean.error <= mean.reference; }
+        bool inside() const { return mean.error <= mean.reference && pop <= most_pop; }
     };
     std::vector<Row> rows;  // as many as there are numbers of passes
     struct Step {
         double distance = 1;  // of the camera in the later frame, in those of the picture
-        int layers = 0;       // there
+        double layers = 0;    // there
         FurChange change;     // with the passes of the last row
     };
     std::vector<Step> steps;  // between frames
@@ -36,7 +39,7 @@ struct FurSteadiness {
 
 struct FilmedFrame {
     double distance = 1;
-    int layers = 0;
+    double layers = 0;
     std::vector<FurFrames> pictures;           // one for each number of passes
     FurFrames reference;
     std::vector<FurFrames> as_layered_before;  // the pictures with the number of layers of the frame before; empty where it is the same

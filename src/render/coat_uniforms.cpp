@@ -67,7 +67,7 @@ CoatUniforms coat_uniforms(const Coat& c, float spacing) {
 
 void set_view(CoatUniforms& u, const FurView& view) {
     const Vec3f eye(view.camera.camera.eye), key(normalize(view.to_key)), rim(normalize(view.to_rim));
-    u.layers = view.layers;
+    u.layers = static_cast<float>(layers_of(view));
     u.eye_x = eye.x;
     u.eye_y = eye.y;
     u.eye_z = eye.z;

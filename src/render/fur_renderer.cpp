@@ -47,7 +47,7 @@ gpu::Buffer texel_buffer(const gpu::Device& device, const std::vector<T>& data) 
 
 }  // namespace
 
-float strand_reach(const Coat& coat, float spacing, int layers) {
+float strand_reach(const Coat& coat, float spacing, double layers) {
     // The few that lean farthest are cut a little: lists grow with the square of the reach, and so does the time.
     const float sway = 0.7f * coat.spread * coat.length + coat.curl_radius * spacing + 1.3f * coat.width * spacing;
     // What lies half a layer above or below is seen through it, somewhat aside.

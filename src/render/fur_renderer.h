@@ -25,7 +25,7 @@ struct FurModel {
 };
 
 // How far a strand may be from where its root alone would put it, in fur space.
-float strand_reach(const Coat& coat, float spacing, int layers);
+float strand_reach(const Coat& coat, float spacing, double layers);
 
 class FurRenderer {
 public:

@@ -52,7 +52,7 @@ TEST_P(FurBudgets, hold_and_are_needed) {
     std::string measured;
     for (const Subject& s : subjects()) {
         FurView view = s.view;
-        view.layers = painter->wear(s.mesh, s.coat, view.camera).layers;
+        view = with_layers(view, painter->wear(s.mesh, s.coat, view.camera).layers);
         painter->fit_light(view, s.traced);
         const FurScore score = fur_score(painter->draw(view), s.traced);
         const FurErrors errors{.flip = score.flip, .coverage_error = score.coverage_error, .gaps = score.gaps, .density_p95_over_p5 = painter->counted().evenness.density_p95_over_p5};

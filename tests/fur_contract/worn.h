@@ -56,7 +56,7 @@ protected:
     const FurMode& mode() const { return *GetParam(); }
     FurFrames drawn(const Mesh& mesh, const Coat& coat, int passes, int threads = 0) {
         FurView view{.camera = camera_of(coat), .passes = passes};
-        view.layers = painter->wear(mesh, coat, view.camera, 0, threads).layers;
+        view = with_layers(view, painter->wear(mesh, coat, view.camera, 0, threads).layers);
         return painter->draw(view);
     }
 

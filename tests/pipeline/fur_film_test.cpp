@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "mesh/made_up_scan.h"
+#include "pipeline/fur_path.h"
 #include "pipeline/fur_score.h"
 #include "render/gpu_renderer.h"
 
@@ -117,8 +118,8 @@ TEST_F(FurFilms, TellWhatTheNumberOfLayersDoes) {
             EXPECT_NEAR(step.distance, 0.4 * std::pow(10.0, (static_cast<double>(i) + 1) / 7), 1e-9);
             FurView seen = view;
             seen.camera.camera.eye = view.camera.camera.eye * step.distance;
-            EXPECT_EQ(step.layers, layers_for(painter->kind(), seen.camera, coat));
-            const int before = i > 0 ? s.steps[i - 1].layers : 0;
+            EXPECT_NEAR(step.layers, layers_for(painter->kind(), seen.camera, coat), 1e-6);
+            const double before = i > 0 ? s.steps[i - 1].layers : 0;
             if (i > 0) {
                 EXPECT_LE(step.layers, before);
                 EXPECT_EQ(step.change.layers > 0, step.layers != before);
@@ -126,6 +127,34 @@ TEST_F(FurFilms, TellWhatTheNumberOfLayersDoes) {
             changed += step.change.layers > 0;
         }
         EXPECT_GT(changed, 0);
+    }
+}
+
+// At steps of 4 % and at steps of a fiftieth of that, past a whole number of layers, their number changes no more than a small part of what each step does. A layer
+// that came in at once would: that is drawn, too.
+TEST_F(FurFilms, ShellsDoNotPop) {
+    FurPainter& painter = *painters[1];
+    ASSERT_EQ(painter.kind(), FurKind::shells);
+    const FurView view = small_view(1, 180);
+    const double near = 0.5, layers = layers_for(painter.kind(), from_afar(view, near).camera, coat);  // falling as the distance grows
+    const FurDolly walks{near * layers / 8.9, near * layers / 7.3}, creeps{near * layers / 8.016, near * layers / 7.984};
+    for (const FurDolly dolly : {walks, creeps}) {
+        const FurSteadiness s = *filmed(painter, {.frames = 6, .dolly = dolly, .passes = {1, 4}, .samples = 1}, {}, true, 0, 180);
+        EXPECT_GT(s.steps.front().layers, 8);
+        EXPECT_LT(s.steps.back().layers, 8);
+        for (const FurSteadiness::Step& step : s.steps) EXPECT_GT(step.change.layers, 0);
+        for (const FurSteadiness::Row& r : s.rows) {
+            EXPECT_LE(r.pop, most_pop) << r.passes << " passes from " << dolly.first;
+            if (dolly.first != creeps.first) continue;
+            EXPECT_LE(r.pop, most_pop / 5) << r.passes;
+            FurView seen = from_afar(view, dolly.last);
+            seen.passes = r.passes;
+            const FurFrames fewer = painter.draw(with_layers(seen, 8)), more = painter.draw(with_layers(seen, 9));
+            SteadinessMeter meter({r.passes}, 1);
+            meter.add({.distance = 1, .layers = 8, .pictures = {fewer}, .reference = fewer, .as_layered_before = {}});
+            meter.add({.distance = 1, .layers = 9, .pictures = {more}, .reference = fewer, .as_layered_before = {fewer}});
+            EXPECT_GT(meter.result()->rows[0].mean.layers, most_pop * r.mean.picture) << r.passes;
+        }
     }
 }
 

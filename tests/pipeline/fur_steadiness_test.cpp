@@ -39,7 +39,12 @@ TEST(FurSteadiness, IsTheMeanChangeOfPictureReferenceAndDifference) {
     EXPECT_DOUBLE_EQ(s.rows[1].mean.picture, 0.0625);           // 0 and 0.125
     EXPECT_DOUBLE_EQ(s.rows[1].mean.error, (0.25 + 0.125) / 2);
     EXPECT_DOUBLE_EQ(s.rows[1].pop, 0.5);
-    EXPECT_TRUE(s.rows[1].inside());
+    EXPECT_FALSE(s.rows[1].inside());                           // it pops
+    FurSteadiness::Row calm = s.rows[1];
+    calm.pop = most_pop;
+    EXPECT_TRUE(calm.inside());
+    calm.mean.error = 1.01 * calm.mean.reference;
+    EXPECT_FALSE(calm.inside());
     ASSERT_EQ(s.steps.size(), 2u);
     EXPECT_EQ(s.steps[1].layers, 4);
     EXPECT_EQ(s.steps[1].distance, 3);

@@ -1,7 +1,8 @@
 // A layer of fur: which strand passes under this pixel here, how much of the pixel it covers, and how it is lit.
 // The mesh was pushed out along the strands, so that around a fragment they all run alike; what is left of each is its root, seen from
 // the fragment's own place on the skin, and what sets it apart. A layer stands for the fur half way to its neighbours: distances are
-// between the line of sight and that piece of the strand, so that strands hang together from layer to layer.
+// between the line of sight and that piece of the strand, so that strands hang together from layer to layer. How wide, how dark and how deep in the fur
+// a strand is, is told by its own point next to the line of sight, and chance is the strand's: what a pixel shows hardly depends on where layers lie.
 // Whatever stands in the loop is done for every root of the list: software devices run both sides of a branch, and take sines one by one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -20,7 +21,7 @@ layout(location = 0) in vec3 base;
 layout(location = 1) in vec3 facing;
 layout(location = 2) in vec4 axis;
 layout(location = 3) in vec3 at;
-layout(location = 4) flat in float level;
+layout(location = 4) flat in vec2 slab;  // the layer's level, and half the height that it stands for
 layout(location = 0) out vec4 colour;
 
 layout(constant_id = 0) const uint curled = 0u;  // whether strands are helices
@@ -49,6 +50,7 @@ uint mixed(uint h) {
 
 void main() {
     if (axis.w < 0.02f) discard;
+    float level = slab.x;
     vec3 normal = normalize(facing);
     float full = coat.fur_length * axis.w;
     vec3 eye = vec3(coat.eye_x, coat.eye_y, coat.eye_z);
@@ -65,7 +67,7 @@ void main() {
 
     vec3 side = normalize(abs(normal.y) < 0.9f ? cross(normal, vec3(0.0f, 1.0f, 0.0f)) : cross(normal, vec3(1.0f, 0.0f, 0.0f)));
     vec3 other = cross(normal, side);
-    float half_piece = 0.55f / float(coat.layers) * full;
+    float half_piece = 1.1f * slab.y * full;
 
     vec3 in_cells = (place - vec3(coat.low_x, coat.low_y, coat.low_z)) * coat.cells_per_unit;
     ivec3 cell = ivec3(floor(in_cells)), size = ivec3(coat.bricks_x, coat.bricks_y, coat.bricks_z);
@@ -74,7 +76,12 @@ void main() {
     int first = int(texelFetch(starts, list).x), last = int(texelFetch(starts, list + 1).x);
     float unit = 1.0f / coat.cells_per_unit;
     vec3 from_corner = (in_cells - vec3(cell) + 1.0f) * unit;
-    float covered = 0.0f, open = 1.0f, share = 0.0f;
+    // Partly covered pixels are decided by chance (Wyman and McGuire 2017, "Hashed Alpha Testing"): no order is needed. Each strand has a chance of
+    // its own, by multiples of two irrationals, and the same in all layers, so that it is decided upon once.
+    uvec2 p = uvec2(gl_FragCoord.xy);
+    float noise = float(mixed(p.x * 0x9e3779b1u ^ p.y * 0x85ebca77u) >> 8) * (1.0f / 16777216.0f) + coat.sample_shift;
+    const float nothing = -1e9f;
+    float nearest = nothing, rise = 0.0f, share = 0.0f;  // toward the eye from `at`; of the strand's point over the layer
     uint chance = 0u;
     vec3 tangent = common_tangent;
     float reach2 = coat.reach * coat.reach, grown = min(4.0f * level, 1.0f) * coat.curl_radius;
@@ -86,7 +93,7 @@ void main() {
         bool near = dot(e, e) < reach2 && abs(off) < 2.0f * coat.reach + 2.0f * coat.off && dot(decoded_normal(root.y), normal) > 0.0f;
         float u = float((root.y >> 16) & 255u) * (1.0f / 255.0f), v = float(root.y >> 24) * (1.0f / 255.0f);
         bool guard = v < coat.guard_hairs;
-        float way = level / (guard ? 1.0f : 1.0f - coat.length_variation * u);
+        float tip = guard ? 1.0f : 1.0f - coat.length_variation * u;
         vec3 lean = (side * (fract(u * 7.0f) - 0.5f) + other * (fract(v * 11.0f) - 0.5f)) * (2.0f * coat.spread);
         e -= lean * (level * full);
         vec3 t = common_tangent + lean;
@@ -99,27 +106,22 @@ void main() {
         // Nearest points of the line of sight and the piece of the strand.
         float c = dot(view, t), along_strand = dot(e, t), along_view = dot(e, view);
         float m = clamp((along_strand - c * along_view) / max(1.0f - c * c, 1e-3f), -half_piece, half_piece);
-        vec3 gap = e + view * (m * c - along_view) - t * m;
+        float s = m * c - along_view;
+        vec3 gap = e + view * s - t * m;
+        float way = max(level + m / full, 0.0f) / tip;
         float way4 = way * way;
         way4 *= way4;
         float radius = coat.width * (guard ? 1.6f : 1.0f) * (1.0f - mix(way, way4, coat.taper));
         float cover = near && way < 1.0f ? line_coverage(length(gap), radius, pixel) : 0.0f;
-        open *= 1.0f - cover;
-        if (cover > covered) {
-            covered = cover;
+        if (cover > fract(noise + u * 157.59f + v * 192.49f) && s > nearest) {
+            nearest = s;
             chance = root.y >> 16;
             share = way;
             tangent = t;
+            rise = m;
         }
-        if (open < 0.02f) break;
     }
-    float coverage = 1.0f - open;
-
-    // Partly covered pixels are decided by chance (Wyman and McGuire 2017, "Hashed Alpha Testing"): no order is needed.
-    uvec2 p = uvec2(gl_FragCoord.xy);
-    uint h = mixed(p.x * 0x9e3779b1u ^ p.y * 0x85ebca77u ^ uint(level * 65536.0f) * 0xc2b2ae3du);
-    float noise = fract(float(h >> 8) * (1.0f / 16777216.0f) + coat.sample_shift);
-    if (coverage < noise) discard;
+    if (nearest == nothing) discard;
     float u = float(chance & 255u) * (1.0f / 255.0f), v = float(chance >> 8) * (1.0f / 255.0f);
     vec3 albedo = mix(vec3(coat.root_r, coat.root_g, coat.root_b), vec3(coat.tip_r, coat.tip_g, coat.tip_b), sqrt(share));
     albedo *= 1.0f + coat.colour_variation * (2.0f * fract(u * 5.3f + v * 3.1f) - 1.0f);
@@ -129,10 +131,10 @@ void main() {
     albedo *= 1.0f + 0.25f * sway.x;
 
     vec3 key = vec3(coat.key_x, coat.key_y, coat.key_z), rim_light = vec3(coat.rim_x, coat.rim_y, coat.rim_z);
-    vec4 seen = to_light * vec4(at, 1.0f);
+    vec4 seen = to_light * vec4(at + view * nearest, 1.0f);
     float depth = max(seen.z - texture(light_depth, seen.xy).x, 0.0f) * 4.0f;
     float lit = exp(-coat.extinction * depth);
-    float occlusion = mix(0.18f, 1.0f, level);
+    float occlusion = mix(0.18f, 1.0f, level + rise / full);
     vec3 ambient = mix(vec3(0.30f, 0.27f, 0.25f), vec3(0.62f, 0.70f, 0.82f), 0.5f + 0.5f * normal.y) * 0.55f;
     vec3 shown = albedo * ambient * occlusion;
     shown += vec3(2.0f, 1.88f, 1.7f) * lit * strand_light(albedo, tangent, normal, view, key, coat.gloss);
