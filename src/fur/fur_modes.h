@@ -45,7 +45,7 @@ inline constexpr FurMode fur_modes[] = {
      {.parallax = true, .occlusion = true, .silhouette = true}},
     {FurKind::shells, "shells", "Layers that look for strands", "layers whose pixels look for the strands around them, no texture", "relievo", 2026, "docs/concepts/fur.md",
      "strands that lean farther than their roots are apart are cut", "concepts/fur.md",
-     {.flip = 0.19, .coverage_error = 0.15, .gaps = 0.057, .density_p95_over_p5 = 1.7}, 0.12,
+     {.flip = 0.15, .coverage_error = 0.14, .gaps = 0.042, .density_p95_over_p5 = 1.7}, 0.12,
      {.parallax = true, .occlusion = true, .self_shadow = true, .silhouette = true, .even_roots = true}},
     {FurKind::strands, "strands", "Strands in object space", "each strand plotted where it stands, no texture", "relievo", 2026, "docs/concepts/fur.md",
      "needs atomic minima of 64 bits in buffers", "concepts/fur.md",

@@ -36,6 +36,7 @@ const std::vector<Subject>& subjects() {
         add("scan", made_up_scan({.faces = 6000}), "rabbit");
         add("scan", made_up_scan({.faces = 6000}), "velvet");
         add("torus", torus_mesh(48, 24), "fox");
+        add("needle", stretched(1, 0.13f, 0.13f), "rabbit");
         add("cube", cube_mesh(), "otter");
         add("cube", cube_mesh(), "porcupine");
         add("spindle", stretched(1, 0.2f, 0.2f), "fox");
