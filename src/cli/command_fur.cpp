@@ -202,7 +202,7 @@ void add_fur_command(CLI::App& app) {
         s.device = o->device;
         s.measure = o->json;
         if (!o->reference.empty()) s.reference_samples = s.film.samples = o->samples;
-        s.growth = {.lengths = length_rules_of(o->growth), .comb = comb_paint_of(o->growth)};
+        s.growth = {.lengths = length_rules_of(o->growth), .comb = comb_paint_of(o->growth.comb)};
         take_forces(o->growth, s);
         std::string words = o->in + ' ' + o->mode + ' ' + std::string(preset.id) + " layers " + o->layers + " size " + std::to_string(s.width) + ' ' + std::to_string(s.height) + " passes " + std::to_string(s.passes);
         for (const CoatKnob& k : coat_knobs()) words += ' ' + std::string(k.id) + ' ' + std::to_string(s.coat.*k.member);

@@ -16,9 +16,13 @@
 
 namespace relievo {
 
+void add_comb_option(CLI::App& verb, std::string& comb) {
+    verb.add_option("--comb", comb, "FILE, a picture over the mesh's texture coordinates that combs the fur: a flow map in tangent space, red along u and green along v about 128, with its weight in alpha, or in blue without alpha; or colours: those of the vertices, a direction in space about mid-grey. Where the weight is 0 the fur lies as without");
+}
+
 void add_growth_options(CLI::App& verb, GrowthOptions& options) {
     verb.add_option("--grow-where", options.where, "NAME=FROM..TO@ARGUMENT, a rule of length: bare where NAME is FROM, full length where it is TO; several multiply")->take_all();
-    verb.add_option("--comb", options.comb, "FILE, a picture over the mesh's texture coordinates that combs the fur: a flow map in tangent space, red along u and green along v about 128, with its weight in alpha, or in blue without alpha; or colours: those of the vertices, a direction in space about mid-grey. Where the weight is 0 the fur lies as without");
+    add_comb_option(verb, options.comb);
     verb.add_option("--gravity", options.gravity, "how strongly fur hangs down, in units of earth's gravity, beyond what its comb has of it")->check(CLI::Range(-20.0, 20.0))->capture_default_str();
     verb.add_option("--wind", options.wind, "X Y Z, pull of the wind on the strands, in the same unit")->expected(3);
     verb.add_option("--gusts", options.gusts, "by which share of itself the wind swells and falls in an animation")->check(CLI::Range(0.0, 1.0))->capture_default_str();
@@ -38,9 +42,9 @@ std::vector<LengthRule> length_rules_of(const GrowthOptions& options) {
     return rules;
 }
 
-CombPaint comb_paint_of(const GrowthOptions& options) {
-    if (options.comb == "colours") return {.file = {}, .picture = {}, .colours = true};
-    return {.file = options.comb, .picture = {}, .colours = false};
+CombPaint comb_paint_of(const std::string& comb) {
+    if (comb == "colours") return {.file = {}, .picture = {}, .colours = true};
+    return {.file = comb, .picture = {}, .colours = false};
 }
 
 namespace {

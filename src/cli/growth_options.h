@@ -13,6 +13,10 @@ class App;
 
 namespace relievo {
 
+// The comb that --comb names; its picture is not read.
+void add_comb_option(CLI::App& verb, std::string& comb);
+CombPaint comb_paint_of(const std::string& comb);
+
 struct GrowthOptions {
     std::vector<std::string> where;     // rules of length
     std::string comb;                   // picture, or "colours"
@@ -30,9 +34,6 @@ void add_growth_options(CLI::App& verb, GrowthOptions& options);
 
 // The rules that --grow-where asks for. Throws UsageError.
 std::vector<LengthRule> length_rules_of(const GrowthOptions& options);
-
-// What --comb asks for; its picture is not read.
-CombPaint comb_paint_of(const GrowthOptions& options);
 
 // The forces that --gravity and --wind ask for.
 void take_forces(const GrowthOptions& options, FurSettings& settings);

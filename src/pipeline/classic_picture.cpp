@@ -62,14 +62,19 @@ void require_area(const Mesh& mesh) {
 
 }  // namespace
 
-Mesh classic_skin(Mesh mesh, int threads) {
+PaintedSkin classic_skin(Mesh mesh, const CombPaint& comb, int threads) {
     mesh = in_fur_space(std::move(mesh), threads);
-    mesh.uvs.clear();
-    mesh.colours.clear();
+    // The thesis' own normals, and the order that draws quickest here.
     mesh.normals = continuous_normals(mesh, NormalMode::distinct, threads);
+    const std::vector<PaintedLean> painted = painted_on(mesh, comb, threads);
+    if (!painted.empty()) mesh = carrying(mesh, {}, painted);
+    else mesh.uvs.clear(), mesh.colours.clear();
     mesh = ordered(indexed(std::move(mesh), threads), {.threads = threads});
     require_area(mesh);
-    return mesh;
+    PaintedSkin skin;
+    skin.painted = taken_off(mesh, false, !painted.empty()).painted;
+    skin.mesh = std::move(mesh);
+    return skin;
 }
 
 ClassicSettings classic_of(const Coat& coat) {
@@ -215,18 +220,11 @@ FurPicture classic_picture(const std::filesystem::path& file, const ClassicSetti
     result.device = renderer->device_name();
     const Timer timer;
     report(progress, "growing fur", 0.2);
-    mesh = in_fur_space(std::move(mesh), s.threads);
-    // The thesis' own normals, and the order that draws quickest here.
-    mesh.normals = continuous_normals(mesh, NormalMode::distinct, s.threads);
     const Growth growth = with_pictures({.lengths = {}, .comb = s.comb, .upright = true});
-    std::vector<PaintedLean> painted = painted_on(mesh, growth.comb, s.threads);
-    const Mesh as_painted = painted.empty() ? Mesh{} : mesh;
-    if (!painted.empty()) mesh = carrying(mesh, {}, painted);
-    else mesh.uvs.clear(), mesh.colours.clear();
-    mesh = ordered(indexed(std::move(mesh), s.threads), {.threads = s.threads});
-    painted = taken_off(mesh, false, !painted.empty()).painted;
+    const Mesh as_painted = growth.comb.empty() ? Mesh{} : mesh;
+    auto [skin, painted] = classic_skin(std::move(mesh), growth.comb, s.threads);
+    mesh = std::move(skin);
     const std::vector<Vec3f> comb = upright_but_for(mesh, painted);
-    require_area(mesh);
     result.ms.prepare = timer.ms();
     const Timer growing;
     result.notes = mesh.notes;

@@ -37,7 +37,7 @@ struct ClassicSettings {
 };
 
 // The mesh as the thesis draws it, in fur space: with normals of its own kind and in the order that draws quickest here. Throws Error.
-Mesh classic_skin(Mesh mesh, int threads = 0);
+PaintedSkin classic_skin(Mesh mesh, const CombPaint& comb = {}, int threads = 0);
 
 // The map of strands alone, each face with a seed of its own. Throws Error where the colour map cannot be read.
 DirectionMap classic_fur_map(const ClassicSettings& settings, std::vector<std::string>& notes);

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "fur/likeness.h"
+#include "fur/painted_comb.h"
 #include "fur/strand_grid.h"
 #include "mesh/normals.h"
 #include "pipeline/classic_picture.h"
@@ -22,9 +23,11 @@ struct CoatPainter::State {
     std::unique_ptr<FurPainter> strands;     // plotted or in shells
     std::unique_ptr<LayersRenderer> layers;  // of textures
     Coat coat;
+    CombPaint comb;
     bool bald = false;
     GrownFur grown;
     Mesh skin;
+    std::vector<Vec3f> lean;  // of the skin's vertices
     DirectionMap fur, colour;
     LappedDress dress;
     LayersLight light;
@@ -37,7 +40,7 @@ struct CoatPainter::State {
     Worn wear_strands(Mesh mesh, const MeshView& camera, int count, int threads) {
         Coat growing = coat;
         if (bald) growing.strands = 1;
-        grown = grown_fur(std::move(mesh), growing, {}, threads);
+        grown = grown_fur(std::move(mesh), growing, {.lengths = {}, .comb = comb}, threads);
         if (bald) {
             grown.mesh.normals = continuous_normals(grown.mesh, NormalMode::angle, threads);
             grown.lengths.assign(grown.mesh.positions.size(), 0.0f);
@@ -50,12 +53,16 @@ struct CoatPainter::State {
     Worn wear_classic(Mesh mesh, int count, int threads) {
         ClassicSettings classic = classic_of(coat);
         classic.light.specular = coat.gloss;
-        skin = classic_skin(std::move(mesh), threads);
+        PaintedSkin worn = classic_skin(std::move(mesh), comb, threads);
+        skin = std::move(worn.mesh);
+        lean = upright_but_for(skin, worn.painted);
+        classic.tilt = coat.tilt;
+        classic.bend = coat.bend;
         std::vector<std::string> notes;
         fur = classic_fur_map(classic, notes);
         colour = classic_colour_map(classic);
         light = classic.light;
-        layers->load(classic_model(classic, skin, fur, colour));
+        layers->load(classic_model(classic, skin, fur, colour, worn.painted.empty() ? nullptr : &lean));
         return {.faces = skin.faces(), .layers = static_cast<double>(count > 0 ? count : classic.layers)};
     }
 
@@ -65,8 +72,9 @@ struct CoatPainter::State {
         lapped.threads = threads;
         lapped.light.specular = coat.gloss;
         if (bald) lapped.coat.strands = 1;
-        skin = lapped_skin(std::move(mesh), threads);
-        dress = lapped_dress(skin, lapped);
+        PaintedSkin worn = lapped_skin(std::move(mesh), comb, threads);
+        skin = std::move(worn.mesh);
+        dress = lapped_dress(skin, lapped, worn.painted);
         light = lapped.light;
         layers->load(dress.model(lapped));
         return {.faces = skin.faces(), .layers = static_cast<double>(count > 0 ? count : lapped.layers)};
@@ -87,6 +95,8 @@ CoatPainter::Worn CoatPainter::wear(Mesh mesh, const Coat& coat, const MeshView&
     if (s.strands) return s.wear_strands(std::move(mesh), camera, layers, threads);
     return s.kind == FurKind::classic ? s.wear_classic(std::move(mesh), layers, threads) : s.wear_lapped(std::move(mesh), layers, threads);
 }
+
+void CoatPainter::paint(const CombPaint& comb) { state_->comb = comb; }
 
 bool light_is_fitted(FurKind kind) { return kind == FurKind::classic || kind == FurKind::lapped; }
 

@@ -5,6 +5,7 @@
 #include "fur/coat.h"
 #include "fur/evenness.h"
 #include "fur/fur_modes.h"
+#include "fur/painted_comb.h"
 #include "render/fur_frames.h"
 
 #include <cstddef>
@@ -26,12 +27,15 @@ public:
     std::string device_name() const;
     std::vector<std::string> validation_messages() const;
 
+    // The comb that is painted on what is worn from now on; its picture has been read.
+    void paint(const CombPaint& comb);
+
     struct Worn {
         std::size_t faces = 0;  // of the mesh on which it grew
         double layers = 0;      // with which it is drawn
     };
     // Grows as much of the coat as the mode can say. `layers` 0: as many as the mode chooses by itself. A coat without length or without
-    // strands leaves the skin bare. Throws Error for meshes on which nothing can grow.
+    // strands leaves the skin bare. Throws Error for meshes on which nothing can grow, and where paint does not fit the mesh.
     Worn wear(Mesh mesh, const Coat& coat, const MeshView& camera, int layers = 0, int threads = 0);
 
     // Gives a mode of light_is_fitted the light that brings it nearest to these traced strands, which the view shows; others keep theirs.

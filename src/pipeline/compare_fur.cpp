@@ -53,6 +53,7 @@ FurRow scored(CoatPainter& painter, const FurMode& mode, const Mesh& mesh, const
 }  // namespace
 
 FurComparison compare_fur(const CompareFurSettings& s, const Progress& progress) {
+    const Growth growth = with_pictures({.lengths = {}, .comb = s.comb});
     std::error_code fault;
     std::filesystem::create_directories(s.out, fault);
     if (fault) throw Error("write the comparison to", s.out.string(), fault.message());
@@ -71,7 +72,7 @@ FurComparison compare_fur(const CompareFurSettings& s, const Progress& progress)
             try {
                 report(progress, "tracing " + start.substr(0, start.size() - 1), done / steps);
                 mesh = load_mesh(file, s.threads);
-                GrownFur grown = grown_fur(mesh, preset.coat, {}, s.threads);
+                GrownFur grown = grown_fur(mesh, preset.coat, growth, s.threads);
                 truth.frames = trace_fur(curves_of(grown, preset.coat, reference_pieces, {}, s.threads), grown.mesh, preset.coat, truth.view, s.samples, s.threads);
             } catch (const Error& e) {
                 all.refused.emplace_back(e.what());
@@ -85,6 +86,7 @@ FurComparison compare_fur(const CompareFurSettings& s, const Progress& progress)
                 report(progress, "drawing " + start + std::string(mode.id), done / steps);
                 std::unique_ptr<CoatPainter>& painter = painters[kind];
                 if (!painter) painter = std::make_unique<CoatPainter>(kind, s.device);
+                painter->paint(growth.comb);
                 Image8 picture;
                 FurRow row = scored(*painter, mode, mesh, preset.coat, truth.view, truth.frames, s, picture);
                 row.mesh = file.filename().string();

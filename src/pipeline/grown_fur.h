@@ -34,6 +34,12 @@ struct Growth {
 // Throws Error for meshes on which nothing can grow, for rules that leave all of it bare, and for paint that does not fit the mesh.
 GrownFur grown_fur(Mesh mesh, const Coat& coat, const Growth& growth, int threads = 0);
 
+// A mesh in fur space, and the comb that a user painted on its vertices; none: nothing is painted.
+struct PaintedSkin {
+    Mesh mesh;
+    std::vector<PaintedLean> painted;
+};
+
 // What the paint says on the mesh, which gets its normals where it has none, and a note where that is nothing. Throws Error.
 std::vector<PaintedLean> painted_on(Mesh& mesh, const CombPaint& comb, int threads = 0);
 

@@ -26,12 +26,15 @@ LayersModel LappedDress::model(const LappedFurSettings& s) const {
     return {.mesh = &patches.mesh, .fur = &fur, .colour = &colour, .comb = &patches.comb, .tilt = s.coat.tilt, .bend = s.coat.bend, .height = s.coat.length, .light = s.light, .skin = s.coat.root_colour};
 }
 
-Mesh lapped_skin(Mesh mesh, int threads) {
+PaintedSkin lapped_skin(Mesh mesh, const CombPaint& comb, int threads) {
     mesh = in_fur_space(std::move(mesh), threads);
-    mesh.uvs.clear();
-    mesh.colours.clear();
     mesh.normals = continuous_normals(mesh, NormalMode::angle, threads);
-    return indexed(std::move(mesh), threads);
+    const std::vector<PaintedLean> painted = painted_on(mesh, comb, threads);
+    if (!painted.empty()) mesh = carrying(mesh, {}, painted);
+    else mesh.uvs.clear(), mesh.colours.clear();
+    PaintedSkin skin{.mesh = indexed(std::move(mesh), threads), .painted = {}};
+    skin.painted = taken_off(skin.mesh, false, !painted.empty()).painted;
+    return skin;
 }
 
 LappedDress lapped_dress(const Mesh& bare, const LappedFurSettings& s, std::span<const PaintedLean> painted) {
@@ -78,15 +81,10 @@ FurPicture lapped_picture(const std::filesystem::path& file, const LappedFurSett
     result.device = renderer->device_name();
     const Timer timer;
     report(progress, "growing fur", 0.2);
-    mesh = in_fur_space(std::move(mesh), s.threads);
-    mesh.normals = continuous_normals(mesh, NormalMode::angle, s.threads);
     const Growth growth = with_pictures({.lengths = {}, .comb = s.comb});
-    std::vector<PaintedLean> painted = painted_on(mesh, growth.comb, s.threads);
-    const Mesh as_painted = painted.empty() ? Mesh{} : mesh;
-    if (!painted.empty()) mesh = carrying(mesh, {}, painted);
-    else mesh.uvs.clear(), mesh.colours.clear();
-    mesh = indexed(std::move(mesh), s.threads);
-    painted = taken_off(mesh, false, !painted.empty()).painted;
+    const Mesh as_painted = growth.comb.empty() ? Mesh{} : mesh;
+    auto [skin, painted] = lapped_skin(std::move(mesh), growth.comb, s.threads);
+    mesh = std::move(skin);
     result.ms.prepare = timer.ms();
     const Timer growing;
     const LappedDress dress = lapped_dress(mesh, s, painted);

@@ -28,7 +28,7 @@ struct LappedFurSettings {
 };
 
 // The mesh in fur space with continuous normals, as patches grow on it. Throws Error.
-Mesh lapped_skin(Mesh mesh, int threads = 0);
+PaintedSkin lapped_skin(Mesh mesh, const CombPaint& comb = {}, int threads = 0);
 
 // What a mesh wears and what draws it. `mesh` is in fur space and has unit normals.
 struct LappedDress {
