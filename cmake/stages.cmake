@@ -46,6 +46,13 @@ if(NOT RELIEVO_HIGHWAY)
   message(STATUS "the CPU caster (src/cast) is left out: it needs Highway 1.0 or later (libhwy-dev)")
 endif()
 
+# The programs' allocator: src/allocator says why. It takes the place of malloc by being there, though nobody names it. Sanitizers bring their own.
+find_library(JEMALLOC_LIBRARY jemalloc REQUIRED)
+set(RELIEVO_JEMALLOC "-Wl,--push-state,--no-as-needed,${JEMALLOC_LIBRARY},--pop-state")
+if(RELIEVO_SANITIZE)
+  set(RELIEVO_JEMALLOC "")
+endif()
+
 add_library(relievo_options INTERFACE)
 target_compile_options(relievo_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow
   -Wno-missing-field-initializers  # designated initializers leave defaults out on purpose
@@ -74,6 +81,6 @@ function(relievo_stage name)
   target_link_libraries(relievo_${name} ${scope} $<BUILD_INTERFACE:relievo_options> ${STAGE_USES} ${STAGE_THIRD_PARTY})
   if(EXISTS ${PROJECT_SOURCE_DIR}/src/${name}/main.cpp)
     add_executable(relievo ${PROJECT_SOURCE_DIR}/src/${name}/main.cpp)
-    target_link_libraries(relievo PRIVATE relievo_${name})
+    target_link_libraries(relievo PRIVATE relievo_allocator relievo_${name})
   endif()
 endfunction()

@@ -30,9 +30,9 @@ public:
 
     void parse() {
         const auto bytes = static_cast<std::size_t>(end_ - p_);
-        // A piece mostly holds one kind of line; the other list stays short and the pages it reserved untouched.
-        piece_.positions.reserve(bytes / 24);
-        piece_.corners[position].reserve(bytes / 8);
+        // A piece mostly holds one kind of line, that of its first. There is room for the shortest lines of large meshes, and what is not needed is given back.
+        if (*p_ == 'v') piece_.positions.reserve(bytes / 18);
+        if (*p_ == 'f') piece_.corners[position].reserve(bytes / 5);
         while (p_ < end_) {
             if (!line()) {
                 piece_.error_at = std::min(p_, end_ - 1);
@@ -42,6 +42,8 @@ public:
         for (std::size_t a : {uv, normal})
             if (!piece_.corners[a].empty()) piece_.corners[a].resize(piece_.corners[position].size(), index_missing);
         if (!piece_.colours.empty()) piece_.colours.resize(piece_.positions.size(), Vec3f(1.0f));
+        piece_.positions.shrink_to_fit();
+        piece_.corners[position].shrink_to_fit();
     }
 
 private:
