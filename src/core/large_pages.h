@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 namespace relievo {
@@ -10,10 +9,6 @@ namespace relievo {
 // Asks the system to back so much memory, as far as nothing has been written there, with large pages: the first touch of each page of
 // 4 KiB costs as much as copying it does. Only a hint: does nothing where there are none.
 void prefer_large_pages(void* data, std::size_t bytes);
-
-// Touches up to so many bytes of new memory, piece by piece while `idle` says that there is nothing better to do, and frees them. An allocator that keeps what is
-// freed, as the programs' does (src/allocator), then has them at hand for whoever comes next.
-void touch_memory(std::size_t bytes, const std::function<bool()>& idle);
 
 // values.reserve(count) in such memory. To be called before anything is put in.
 template <class T>

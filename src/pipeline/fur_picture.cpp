@@ -2,7 +2,6 @@
 
 #include "assets/image_file.h"
 #include "assets/mesh_file.h"
-#include "core/large_pages.h"
 #include "fur/likeness.h"
 #include "fur/strand_grid.h"
 #include "pipeline/fur_reference.h"
@@ -10,7 +9,6 @@
 #include "pipeline/timer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <future>
 
@@ -36,11 +34,6 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
     const Timer loading;
     Mesh mesh = load_mesh(file, settings.threads);
     result.ms.load = loading.ms();
-    // The device takes longer to start than most files to be read. Meanwhile: what growing and drawing take, of darts, roots and strands, their order and their points,
-    // and of the picture and what it is made from.
-    constexpr std::size_t strand_bytes = 260, pixel_bytes = 40;
-    touch_memory(static_cast<std::size_t>(settings.coat.strands) * strand_bytes + static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height) * pixel_bytes,
-                 [&] { return starting.wait_for(std::chrono::seconds(0)) != std::future_status::ready; });
     const std::unique_ptr<FurPainter> painter = starting.get();
     result.device = painter->device_name();
 
