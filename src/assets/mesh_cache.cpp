@@ -14,7 +14,6 @@
 // The checksum is against accidents. What a file claims is checked all the same: sizes before anything is allocated, indices and
 // positions as for every other format.
 #include "core/error.h"
-#include "core/large_pages.h"
 #include "core/parallel_for.h"
 
 #include <algorithm>
@@ -96,7 +95,7 @@ std::uint64_t checksum_of_blocks(std::string_view bytes, std::string_view header
 template <class T>
 void copy_out(std::string_view bytes, std::uint64_t at, std::uint64_t count, std::vector<T>& values) {
     const char* const from = bytes.data() + at;
-    reserve_large(values, static_cast<std::size_t>(count));
+    values.reserve(static_cast<std::size_t>(count));
     if (reinterpret_cast<std::uintptr_t>(from) % alignof(T) == 0) {
         // In one go: filling a vector with zeros first would take as long again.
         const T* const first = reinterpret_cast<const T*>(from);

@@ -2,7 +2,6 @@
 // and the lists are joined in the order of the text. A negative index counts back from a line whose number of vertices before it is
 // known only then, so such corners are marked and resolved in the second pass.
 #include "core/error.h"
-#include "core/large_pages.h"
 #include "core/parallel_for.h"
 
 #include <algorithm>
@@ -147,10 +146,8 @@ std::vector<T> joined(std::vector<Piece>& pieces, int threads, const ListOf& lis
         any |= !list_of(pieces[i]).empty();
         start[i + 1] = start[i] + length_of(pieces[i]);
     }
-    std::vector<T> all;
-    if (!any) return all;
-    reserve_large(all, start.back());
-    all.resize(start.back(), fill);
+    if (!any) return {};
+    std::vector<T> all(start.back(), fill);
     parallel_for(static_cast<int>(pieces.size()), 1, threads, [&](int begin, int end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
             std::vector<T>& list = list_of(pieces[i]);

@@ -1,6 +1,5 @@
 #include "mesh/equal_vertices.h"
 
-#include "core/large_pages.h"
 #include "core/parallel_for.h"
 
 #include <algorithm>
@@ -50,9 +49,7 @@ std::vector<std::uint32_t> first_equal_vertex(const Mesh& mesh, Compared compare
     const auto index_bits = static_cast<int>(std::bit_width(count));
     const auto index_mask = static_cast<std::uint32_t>((std::uint64_t{1} << index_bits) - 1);
     const std::size_t slots = std::bit_ceil(count * 2 + 1);
-    std::vector<std::uint32_t> table;
-    reserve_large(table, slots);
-    table.resize(slots, empty);
+    std::vector<std::uint32_t> table(slots, empty);
     std::vector<std::uint32_t> first(count);  // the slot at first, what it holds in the end
     std::atomic<bool> any_equal{false};
     parallel_for(static_cast<int>(count), grain, threads, [&](int begin, int end) {
