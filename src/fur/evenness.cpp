@@ -1,6 +1,7 @@
 #include "fur/evenness.h"
 
 #include "core/parallel_for.h"
+#include "fur/facing.h"
 
 #include <algorithm>
 #include <cassert>

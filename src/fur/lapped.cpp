@@ -1,5 +1,6 @@
 #include "fur/lapped.h"
 
+#include "fur/facing.h"
 #include "fur/fur_map.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "fur/map_strands.h"
 
 #include "core/parallel_for.h"
+#include "fur/facing.h"
 
 #include <algorithm>
 #include <array>

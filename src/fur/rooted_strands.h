@@ -22,16 +22,14 @@ struct RootedStrands {
     };
     std::vector<Place> places;
     std::vector<Nature> natures;
-    std::vector<std::uint32_t> roots;  // which of the roots each stands on
 };
 
-// One strand a root. The mesh has unit normals, `comb` a vector per vertex and `lengths` a share in [0,1] (empty: 1 everywhere); between
-// vertices they are interpolated. Along a curve that fills space, so that neighbours in the list are neighbours on the skin: what is
-// plotted together then lies near each other in the picture, and multiples of an irrational number spread evenly over the skin. Does
-// not depend on `threads`.
+// One strand a root, in their order: neighbours in it are neighbours on the skin, so that what is plotted together lies near each other in the picture, and multiples
+// of an irrational number spread evenly over the skin. The mesh has unit normals, `comb` a vector per vertex and `lengths` a share in [0,1] (empty: 1 everywhere);
+// between vertices they are interpolated. Does not depend on `threads`.
 RootedStrands rooted_strands(const Mesh& mesh, const std::vector<Vec3f>& comb, const std::vector<float>& lengths, const Roots& roots, int threads = 0);
 
 // What the vertices have, where each strand stands; a fourth number of 0 makes texels of them.
-std::vector<std::array<float, 4>> at_strands(const RootedStrands& strands, const Mesh& mesh, const Roots& roots, std::span<const Vec3f> of_vertices, int threads = 0);
+std::vector<std::array<float, 4>> at_strands(const Mesh& mesh, const Roots& roots, std::span<const Vec3f> of_vertices, int threads = 0);
 
 }  // namespace relievo

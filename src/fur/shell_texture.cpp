@@ -1,6 +1,7 @@
 #include "fur/shell_texture.h"
 
 #include "core/parallel_for.h"
+#include "fur/facing.h"
 #include "fur/strand_albedo.h"
 #include "fur/strand_grid.h"
 

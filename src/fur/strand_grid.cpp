@@ -1,6 +1,7 @@
 #include "fur/strand_grid.h"
 
 #include "core/parallel_for.h"
+#include "fur/facing.h"
 
 #include <algorithm>
 #include <atomic>

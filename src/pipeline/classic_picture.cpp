@@ -4,6 +4,7 @@
 #include "assets/mesh_file.h"
 #include "core/error.h"
 #include "fur/carried_values.h"
+#include "fur/facing.h"
 #include "fur/map_strands.h"
 #include "mesh/index_order.h"
 #include "mesh/indexing.h"

@@ -144,7 +144,7 @@ void FurPainter::push(const std::vector<Vec3f>& pushes) {
     std::vector<Vec3f> of_layers(skin_vertex_.size());
     for (std::size_t v = 0; v < of_layers.size(); ++v)
         if (skin_vertex_[v] >= 0) of_layers[v] = pushes[static_cast<std::size_t>(skin_vertex_[v])];
-    strands_->push(at_strands(strands_on_skin_, fur_->mesh, fur_->roots, pushes, threads_), of_layers);
+    strands_->push(at_strands(fur_->mesh, fur_->roots, pushes, threads_), of_layers);
 }
 
 FurFrames FurPainter::draw(const FurView& view) { return strands_ ? strands_->draw(view) : shells_->draw(view); }

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "fur/carried_values.h"
 #include "fur/comb.h"
+#include "fur/facing.h"
 #include "fur/refined.h"
 #include "mesh/indexing.h"
 #include "mesh/normals.h"

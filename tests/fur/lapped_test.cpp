@@ -3,6 +3,7 @@
 
 #include "fur/comb.h"
 #include "fur/evenness.h"
+#include "fur/facing.h"
 #include "fur/fur_map.h"
 #include "mesh/made_up_scan.h"
 

@@ -2,6 +2,7 @@
 #include "fur/roots.h"
 
 #include "core/error.h"
+#include "fur/facing.h"
 #include "mesh/made_up_scan.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace relievo {
 namespace {
@@ -112,6 +114,29 @@ TEST(Roots, FollowTheSurfaceAndNotTheFile) {
     std::vector<Place> common;
     std::ranges::set_intersection(a, b, std::back_inserter(common));
     EXPECT_GE(common.size() + 10, a.size());
+}
+
+TEST(Roots, KeepTheirDistanceOnASpeckFarAway) {
+    // At last so far that cells can no longer be told apart, and blocks of cells share their numbers.
+    for (const auto& [far, size] : {std::pair{1e3f, 0.1f}, {3e4f, 0.1f}, {1e5f, 0.1f}, {1e6f, 1e2f}, {1e9f, 1e5f}}) {
+        Mesh mesh = sheet(20);
+        const auto n = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.insert(mesh.positions.end(), {{-far, 0, 0}, {-far + size, 0, 0}, {-far, size, 0}});
+        mesh.indices.insert(mesh.indices.end(), {n, n + 1, n + 2});
+        const Roots roots = grow_roots(mesh, {.count = 3000});
+        EXPECT_NEAR(static_cast<double>(roots.roots.size()), 3000, 300) << far;
+        EXPECT_GE(least_distance(mesh, roots, 2 * roots.distance), roots.distance * (1 - 1e-5)) << far;
+        EXPECT_EQ(grow_roots(mesh, {.count = 3000, .threads = 1}).roots.size(), roots.roots.size()) << far;
+    }
+}
+
+TEST(Roots, FollowACurveOnWhichNeighboursAreNear) {
+    const Mesh ball = made_up_scan({.faces = 3000, .relief = 0, .noise = 0});
+    const Roots roots = grow_roots(ball, {.count = 5000});
+    double along = 0;
+    for (std::size_t i = 1; i < roots.roots.size(); ++i) along += length(Vec3d(roots.roots[i].position) - Vec3d(roots.roots[i - 1].position));
+    // In a random order steps would be two thirds of the ball's width, 47 distances. A block is 24 wide and few strands long: to and fro in its cells, six wide, is what is left.
+    EXPECT_LT(along / static_cast<double>(roots.roots.size() - 1), 6 * roots.distance);
 }
 
 TEST(Roots, BothSidesOfAThinSheetHaveTheirOwn) {

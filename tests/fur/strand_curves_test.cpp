@@ -2,6 +2,7 @@
 #include "fur/strand_curves.h"
 
 #include "fur/comb.h"
+#include "fur/facing.h"
 #include "fur/refined.h"
 #include "mesh/made_up_scan.h"
 #include "mesh/normals.h"

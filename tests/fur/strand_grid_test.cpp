@@ -3,6 +3,7 @@
 
 #include "fur/coat.h"
 #include "fur/comb.h"
+#include "fur/facing.h"
 #include "fur/lock_noise.h"
 #include "mesh/made_up_scan.h"
 #include "mesh/normals.h"
