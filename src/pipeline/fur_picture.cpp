@@ -37,7 +37,7 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
     Mesh mesh = load_mesh(file, settings.threads);
     result.ms.load = loading.ms();
     // The device takes longer to start than most files to be read. Meanwhile: what growing and drawing will take, of darts, roots and strands, of the mesh that is to be
-    // simplified, and of the picture. Counted with a bunny and a dragon, which then touch a tenth of the new memory that they touched before.
+    // simplified, and of the picture. Counted with a bunny and a dragon, which then touch a third of the new memory that they touched before.
     constexpr std::size_t strand_bytes = 120, face_bytes = 120, pixel_bytes = 8;
     WarmMemory warm = warm_memory(static_cast<std::size_t>(settings.coat.strands) * strand_bytes + mesh.faces() * face_bytes +
                                       static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height) * pixel_bytes,

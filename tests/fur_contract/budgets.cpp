@@ -41,6 +41,8 @@ const std::vector<Subject>& subjects() {
         add("cube", cube_mesh(), "porcupine");
         add("spindle", stretched(1, 0.2f, 0.2f), "fox");
         add("needle", stretched(1, 0.13f, 0.13f), "sheep");
+        add("needle", stretched(1, 0.13f, 0.13f), "fox");
+        add("needle", stretched(1, 0.13f, 0.13f), "porcupine");
         return list;
     }();
     return all;

@@ -37,7 +37,7 @@ std::string folder_of(const std::string& include) {
 
 // The library of an angle-bracket include, or empty for the standard library (no dot, no slash) and POSIX.
 std::string library_of(const std::string& include) {
-    static const std::set<std::string> posix{"unistd.h", "fcntl.h", "sched.h", "signal.h", "poll.h", "sys"};
+    static const std::set<std::string> posix{"unistd.h", "fcntl.h", "pthread.h", "sched.h", "signal.h", "poll.h", "sys"};
     const auto slash = include.find('/');
     const auto dot = include.find('.');
     if (slash == std::string::npos && dot == std::string::npos) return {};
