@@ -47,6 +47,10 @@ std::string misspelt_word(CLI::App& app, int argc, char** argv) {
         for (const CLI::App* v : app.get_subcommands({})) verbs.push_back(v->get_name());
         if (std::ranges::find(verbs, first) == verbs.end()) return relievo::unknown_word("command", first, verbs);
         verb = app.get_subcommand(first);
+        // Commands of two words: `compare fur`.
+        const std::string second = argc > 2 ? argv[2] : "";
+        for (const CLI::App* v : verb->get_subcommands({}))
+            if (v->get_name() == second) verb = v;
     }
     std::vector<std::string> known;
     for (const CLI::Option* option : verb->get_options())

@@ -38,6 +38,8 @@ TEST(Words, MisspeltIdsGetASuggestion) {
     expect_wrong({"compar"}, {"compar", "'compare'"});
     expect_wrong({"compare", "--materal", "x", "--out", png}, {"--materal", "'--material'"});
     expect_wrong({"list", "--jsn"}, {"--jsn", "'--json'"});
+    expect_wrong({"replicate", "fur", "--meshes", "scans", "--samplse", "3"}, {"--samplse", "'--samples'"});
+    expect_wrong({"compare", "fur", "bunny.obj", "--mode", "strands", "--presets", "fox", "--out", png}, {"--presets", "'--preset'"});
     expect_wrong({"--versoin"}, {"'--version'"});
     expect_wrong({"list", "technique"}, {"'techniques'"});
     expect_wrong({"compare", "--technique", "relief_mapping,cone_step_maping", "--out", png}, {"cone_step_maping", "'cone_step_mapping'"});
