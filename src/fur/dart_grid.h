@@ -14,6 +14,7 @@ namespace relievo {
 // cells of a surface holds some hundred darts, which stay in the nearest cache.
 constexpr float cell_distances = 6;
 constexpr std::uint32_t block_side = 4, block_cells = block_side * block_side * block_side;
+constexpr std::uint32_t blocks_along_axis = 1u << 21;  // three coordinates in 63 bits
 
 struct Cell {
     std::uint32_t x, y, z;
@@ -23,10 +24,10 @@ struct DartGrid {
     Vec3d low;  // of all darts
     double per_unit = 1;
 
-    // The cell that holds p, and p from its low corner, in cells. Cells beyond two billion are one. Places far from the low corner are near others too, which single numbers
-    // would not tell.
+    // The cell that holds p, and p from its low corner, in cells. Of cells so far from the low corner that blocks have no numbers left, all are one: more darts are compared
+    // there. In double, because places far from the low corner are near others too, which single numbers would not tell.
     Cell at(Vec3f p, Vec3f& inside) const {
-        constexpr double most = 2e9;
+        constexpr double most = block_side * double{blocks_along_axis} - 1;
         const Vec3d q = (Vec3d(p) - low) * per_unit;
         const auto x = static_cast<std::int32_t>(std::min(q.x, most)), y = static_cast<std::int32_t>(std::min(q.y, most)), z = static_cast<std::int32_t>(std::min(q.z, most));
         inside = {static_cast<float>(q.x - x), static_cast<float>(q.y - y), static_cast<float>(q.z - z)};
@@ -40,9 +41,8 @@ constexpr std::uint32_t cell_in_block(std::uint32_t x, std::uint32_t y, std::uin
     return apart(x) | apart(y) << 1 | apart(z) << 2;
 }
 
-// A block by its place. Of places farther than 2 million blocks from the low corner several may share one: more darts are compared then, and that is all.
-constexpr std::uint64_t place_mask = 0x1fffff;
-inline std::uint64_t block_of(Cell c) { return std::uint64_t{c.x / block_side & place_mask} | std::uint64_t{c.y / block_side & place_mask} << 21 | std::uint64_t{c.z / block_side & place_mask} << 42; }
+// A block by its place.
+inline std::uint64_t block_of(Cell c) { return std::uint64_t{c.x / block_side} | std::uint64_t{c.y / block_side} << 21 | std::uint64_t{c.z / block_side} << 42; }
 
 // The same place as a number along Morton's curve, in whose order neighbours are mostly near each other. Its three lowest bits say in which of eight groups the block is:
 // no two blocks of a group touch.
@@ -54,7 +54,8 @@ inline std::uint64_t along_curve(std::uint64_t block) {
         v = (v | v << 4) & 0x10c30c30c30c30c3u;
         return (v | v << 2) & 0x1249249249249249u;
     };
-    return apart(block & place_mask) | apart(block >> 21 & place_mask) << 1 | apart(block >> 42) << 2;
+    constexpr std::uint64_t axis = blocks_along_axis - 1;
+    return apart(block & axis) | apart(block >> 21 & axis) << 1 | apart(block >> 42) << 2;
 }
 
 // The block beside one, both along the curve: each coordinate is counted up or down within its own bits.

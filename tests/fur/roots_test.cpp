@@ -117,8 +117,8 @@ TEST(Roots, FollowTheSurfaceAndNotTheFile) {
 }
 
 TEST(Roots, KeepTheirDistanceOnASpeckFarAway) {
-    // At last so far that cells can no longer be told apart, and blocks of cells share their numbers.
-    for (const auto& [far, size] : {std::pair{1e3f, 0.1f}, {3e4f, 0.1f}, {1e5f, 0.1f}, {1e6f, 1e2f}, {1e9f, 1e5f}}) {
+    // At ten million the speck has no area left, and what is far from it, which is all, lies in one cell.
+    for (const auto& [far, size] : {std::pair{1e3f, 0.1f}, {3e4f, 0.1f}, {1e5f, 0.1f}, {1e7f, 0.1f}, {1e6f, 1e2f}, {1e9f, 1e5f}}) {
         Mesh mesh = sheet(20);
         const auto n = static_cast<std::uint32_t>(mesh.positions.size());
         mesh.positions.insert(mesh.positions.end(), {{-far, 0, 0}, {-far + size, 0, 0}, {-far, size, 0}});
