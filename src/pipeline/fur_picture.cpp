@@ -13,6 +13,8 @@
 #include <chrono>
 #include <cmath>
 #include <future>
+#include <optional>
+#include <utility>
 
 namespace relievo {
 
@@ -39,11 +41,11 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
     // The device takes longer to start than most files to be read. Meanwhile: what growing and drawing will take, of darts, roots and strands, of the mesh that is to be
     // simplified, and of the picture. Counted with a bunny and a dragon, which then touch a third of the new memory that they touched before.
     constexpr std::size_t strand_bytes = 120, face_bytes = 120, pixel_bytes = 8;
-    WarmMemory warm = warm_memory(static_cast<std::size_t>(settings.coat.strands) * strand_bytes + mesh.faces() * face_bytes +
-                                      static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height) * pixel_bytes,
-                                  [&] { return starting.wait_for(std::chrono::seconds(0)) != std::future_status::ready; });
+    std::optional<WarmMemory> warm(std::in_place, static_cast<std::size_t>(settings.coat.strands) * strand_bytes + mesh.faces() * face_bytes +
+                                                      static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height) * pixel_bytes,
+                                   [&] { return starting.wait_for(std::chrono::seconds(0)) != std::future_status::ready; });
     const std::unique_ptr<FurPainter> painter = starting.get();
-    warm.clear();
+    warm->hand_over();
     result.device = painter->device_name();
 
     const Timer timer;
@@ -60,6 +62,7 @@ FurPicture fur_picture(const std::filesystem::path& file, const FurSettings& set
     FurFrames frames = painter->draw(view);
     result.picture = shown_fur(frames);
     result.ms.first_frame = timer.ms();
+    warm.reset();
     if (!frames.stages.empty()) result.stages = {frames.stages.front()};
     result.faces = grown.faces();
     result.strands = roots.roots.size();

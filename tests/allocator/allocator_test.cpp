@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <vector>
@@ -50,34 +49,6 @@ TEST(Allocator, LargeArraysTakeFewFirstTouches) {
     const std::vector<char> array(bytes, 1);
     EXPECT_EQ(array[bytes / 2], 1);
     EXPECT_LT(first_touches() - before, 4096);
-}
-
-std::size_t statistic(const char* name) {
-    std::uint64_t epoch = 1;
-    std::size_t value = 0, size = sizeof value, epoch_size = sizeof epoch;
-    mallctl("epoch", &epoch, &epoch_size, &epoch, sizeof epoch);
-    EXPECT_EQ(mallctl(name, &value, &size, nullptr, 0), 0) << name;
-    return value;
-}
-
-TEST(Allocator, WhatWasFreedServesTheNextRequestsOfAnySize) {
-    if (!mallctl) GTEST_SKIP() << "built with sanitizers, which bring their own allocator";
-    if (std::getenv("MALLOC_CONF")) GTEST_SKIP() << "MALLOC_CONF is set and says otherwise";
-    if (mallctl("arena.0.oversize_threshold", nullptr, nullptr, nullptr, 0) != 0) GTEST_SKIP() << "this jemalloc gives back what is larger than 8 MiB whatever it is told";
-    const auto filled = [](std::size_t piece) {
-        std::vector<std::vector<char>> pieces;
-        for (std::size_t done = 0; done + piece <= bytes; done += piece) pieces.emplace_back(piece, 1);
-        return pieces;
-    };
-    filled(bytes / 32);
-    // They are free now, have grown together, and stay for a while.
-    const std::size_t page = statistic("arenas.page");
-    EXPECT_GE(statistic("stats.arenas.0.pdirty") * page, bytes / 10 * 9);
-    for (const std::size_t piece : {bytes / 32, bytes / 200, bytes / 1000}) {
-        const std::size_t before = statistic("stats.mapped");
-        const auto pieces = filled(piece);
-        EXPECT_LE(statistic("stats.mapped"), before + bytes / 2) << piece << " bytes a piece";
-    }
 }
 
 }  // namespace

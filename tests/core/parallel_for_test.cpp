@@ -61,7 +61,7 @@ TEST(ParallelFor, UsesAsManyThreadsAsItIsToldAndKeepsThem) {
     };
     EXPECT_EQ(used(40), 40u);
     const int threads = threads_of_process();
-    EXPECT_EQ(threads, 40);
+    EXPECT_GE(threads, 40);  // sanitizers have threads of their own
     for (int round = 0; round < 10; ++round) EXPECT_EQ(used(4), 4u);
     EXPECT_EQ(threads_of_process(), threads);
 }
