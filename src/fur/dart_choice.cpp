@@ -1,30 +1,14 @@
 #include "fur/dart_choice.h"
 
+#include "core/four_lanes.h"
+
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <limits>
 
 namespace relievo {
 
 namespace {
-
-// Under GCC's and Clang's vector extension, as wide as a register of any machine this runs on.
-using Lanes = float __attribute__((vector_size(16)));
-using LaneMask = std::int32_t __attribute__((vector_size(16)));
-
-Lanes lanes_at(const float* from) {
-    Lanes v;
-    std::memcpy(&v, from, sizeof v);
-    return v;
-}
-// A lane's answer in the bit of its number.
-std::uint32_t bits_of(LaneMask mask) {
-    std::uint64_t half[2];
-    std::memcpy(half, &mask, sizeof half);
-    if ((half[0] | half[1]) == 0) return 0;
-    return (static_cast<std::uint32_t>(mask[0]) & 1u) | (static_cast<std::uint32_t>(mask[1]) & 2u) | (static_cast<std::uint32_t>(mask[2]) & 4u) | (static_cast<std::uint32_t>(mask[3]) & 8u);
-}
 
 bool comes_before(const Root& p, const Root& q) {
     if (p.position.x != q.position.x) return p.position.x < q.position.x;
@@ -104,9 +88,9 @@ bool DartChoice::taken_here(const Root& dart, std::uint32_t begin, std::uint32_t
     // The last look may reach back into the cells before, whose darts stay as well.
     for (std::uint32_t i = end; i > begin;) {
         i -= 4;
-        const Lanes x = lanes_at(&kept_.x[i]) - dart.position.x, y = lanes_at(&kept_.y[i]) - dart.position.y, z = lanes_at(&kept_.z[i]) - dart.position.z;
-        const std::uint32_t near = bits_of(x * x + y * y + z * z < near2_);
-        if (near != 0 && faces_alike(kept_, i, near, dart.face)) return true;
+        const FourLanes x = four_from(&kept_.x[i]) - dart.position.x, y = four_from(&kept_.y[i]) - dart.position.y, z = four_from(&kept_.z[i]) - dart.position.z;
+        const FourMask near = x * x + y * y + z * z < near2_;
+        if (any(near) && faces_alike(kept_, i, bits_of(near), dart.face)) return true;
         if (i <= begin || x[0] * x[0] >= near2_) return false;
     }
     return false;
@@ -115,9 +99,9 @@ bool DartChoice::taken_here(const Root& dart, std::uint32_t begin, std::uint32_t
 bool DartChoice::taken(const Root& dart, const KeptDarts& kept, KeptDarts::Range range) const {
     // The last look may reach into the cells that follow, whose darts stay as well.
     for (std::uint32_t i = range.begin; i < range.end; i += 4) {
-        const Lanes x = lanes_at(&kept.x[i]) - dart.position.x, y = lanes_at(&kept.y[i]) - dart.position.y, z = lanes_at(&kept.z[i]) - dart.position.z;
-        const std::uint32_t near = bits_of(x * x + y * y + z * z < near2_);
-        if (near != 0 && faces_alike(kept, i, near, dart.face)) return true;
+        const FourLanes x = four_from(&kept.x[i]) - dart.position.x, y = four_from(&kept.y[i]) - dart.position.y, z = four_from(&kept.z[i]) - dart.position.z;
+        const FourMask near = x * x + y * y + z * z < near2_;
+        if (any(near) && faces_alike(kept, i, bits_of(near), dart.face)) return true;
     }
     return false;
 }

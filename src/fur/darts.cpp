@@ -94,6 +94,42 @@ std::vector<Share> shares_of(std::span<const float> expected) {
     return shares;
 }
 
+// Numbers blocks from 0 as they come.
+class BlockNumbers {
+public:
+    std::uint32_t operator()(std::uint64_t block) {
+        if (!blocks_.empty() && block == blocks_[last_]) return last_;
+        if (2 * blocks_.size() >= slots_.size()) grow();
+        std::uint32_t& slot = slots_[find(block)];
+        if (slot == 0) {
+            blocks_.push_back(block);
+            slot = static_cast<std::uint32_t>(blocks_.size());
+        }
+        return last_ = slot - 1;
+    }
+    const std::vector<std::uint64_t>& blocks() const { return blocks_; }
+    void clear() {
+        std::ranges::fill(slots_, 0u);
+        blocks_.clear();
+        last_ = 0;
+    }
+
+private:
+    std::vector<std::uint64_t> blocks_;
+    std::vector<std::uint32_t> slots_ = std::vector<std::uint32_t>(256);  // a number and 1; 0: none
+    std::uint32_t last_ = 0;
+
+    std::size_t find(std::uint64_t block) const {
+        std::size_t at = block * 0x9e3779b97f4a7c15u >> 32 & (slots_.size() - 1);
+        while (slots_[at] != 0 && blocks_[slots_[at] - 1] != block) at = (at + 1) & (slots_.size() - 1);
+        return at;
+    }
+    void grow() {
+        slots_.assign(slots_.size() * 2, 0);
+        for (std::uint32_t n = 0; n < blocks_.size(); ++n) slots_[find(blocks_[n])] = n + 1;
+    }
+};
+
 }  // namespace
 
 std::vector<DartPack> throw_darts(const Mesh& mesh, std::span<const float> expected, const DartGrid& grid, std::uint32_t seed, int threads) {

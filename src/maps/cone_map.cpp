@@ -1,5 +1,6 @@
 #include "maps/cone_map.h"
 
+#include "core/four_lanes.h"
 #include "core/parallel_for.h"
 #include "maps/texel_maxima.h"
 
@@ -8,7 +9,6 @@
 #include <cstdlib>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 // Branch and bound over a pyramid of texel maxima. All texels of a small tile search together: a node is opened if any of them
@@ -24,23 +24,8 @@ constexpr int tile_w = 8;
 constexpr int tile_h = 8;
 constexpr int leaf_level = 2;  // blocks of 4x4 texels are compared texel by texel
 
-// Four lanes under GCC's and Clang's vector extension, which every processor we know has in one register. Left to themselves the
-// compilers vectorise these loops in some surroundings and not in others.
-using Lanes = float __attribute__((vector_size(16)));
-using LaneMask = std::int32_t __attribute__((vector_size(16)));
 constexpr int lanes = 4;
 constexpr int tile_columns = tile_w / lanes;
-
-Lanes load(const float* from) {
-    Lanes v;
-    std::memcpy(&v, from, sizeof v);
-    return v;
-}
-bool any(LaneMask mask) {
-    std::uint64_t half[2];
-    std::memcpy(half, &mask, sizeof half);
-    return (half[0] | half[1]) != 0;
-}
 
 // The tests compare d2 with q rise^2 instead of dividing. Three roundings of 2^-24 separate the two forms; a q widened by
 // this much never closes a node that the division would have let through.
@@ -152,11 +137,11 @@ private:
     }
 
     bool any_within(float most, const float* du2, const float* dv2) const {
-        LaneMask within{};
+        FourMask within{};
         for (int c = 0; c < tile_columns; ++c) {
-            const Lanes u = load(du2 + c * lanes);
+            const FourLanes u = four_from(du2 + c * lanes);
             for (int r = 0; r < tile_h; ++r) {
-                const Lanes rise = most - apex_[r][c];
+                const FourLanes rise = most - apex_[r][c];
                 within |= (u + dv2[r] < bound_[r][c] * rise * rise) & (rise > 0.0f);
             }
         }
@@ -183,13 +168,13 @@ private:
         if (least >= widest_ * (most - lowest_) * (most - lowest_)) return false;
         if (!any_within(most, du2, dv2)) return false;
         for (int c = 0; c < tile_columns; ++c) {
-            const Lanes u = load(du2 + c * lanes);
+            const FourLanes u = four_from(du2 + c * lanes);
             for (int r = 0; r < tile_h; ++r) {
-                const Lanes rise = most - apex_[r][c];
-                const LaneMask within = (u + dv2[r] < bound_[r][c] * rise * rise) & (rise > 0.0f);
+                const FourLanes rise = most - apex_[r][c];
+                const FourMask within = (u + dv2[r] < bound_[r][c] * rise * rise) & (rise > 0.0f);
                 if (!any(within)) continue;
-                const Lanes q = (u + dv2[r]) / (rise * rise);
-                const LaneMask less = (q < q_[r][c]) & (rise > 0.0f);
+                const FourLanes q = (u + dv2[r]) / (rise * rise);
+                const FourMask less = (q < q_[r][c]) & (rise > 0.0f);
                 q_[r][c] = less ? q : q_[r][c];
                 bound_[r][c] = less ? q * slack : bound_[r][c];
             }
@@ -198,7 +183,7 @@ private:
     }
 
     void tighten() {
-        Lanes widest{};
+        FourLanes widest{};
         for (int r = 0; r < tile_h; ++r)
             for (int c = 0; c < tile_columns; ++c) widest = bound_[r][c] > widest ? bound_[r][c] : widest;
         widest_ = std::max(std::max(widest[0], widest[1]), std::max(widest[2], widest[3]));
@@ -211,9 +196,9 @@ private:
     std::vector<Node> open_;
 
     int x0_ = 0, y0_ = 0;
-    Lanes apex_[tile_h][tile_columns];   // heights of the tile's texels
-    Lanes q_[tile_h][tile_columns];      // least d2 / rise^2 so far
-    Lanes bound_[tile_h][tile_columns];  // the same, widened by `slack`; 0 in lanes beyond the map
+    FourLanes apex_[tile_h][tile_columns];   // heights of the tile's texels
+    FourLanes q_[tile_h][tile_columns];      // least d2 / rise^2 so far
+    FourLanes bound_[tile_h][tile_columns];  // the same, widened by `slack`; 0 in lanes beyond the map
     float lowest_ = 0;             // of apex_
     float widest_ = 0;             // of bound_
 };

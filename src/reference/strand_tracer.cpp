@@ -1,5 +1,7 @@
 #include "reference/strand_tracer.h"
 
+#include "core/morton.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -13,15 +15,6 @@ namespace {
 
 Vec3f lower(Vec3f a, Vec3f b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 Vec3f upper(Vec3f a, Vec3f b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
-
-// 21 bits of each coordinate, interleaved: pieces that are near in this order are near in space (Morton 1966).
-std::uint64_t spread_bits(std::uint64_t x) {
-    x = (x | x << 32) & 0x1f00000000ffffull;
-    x = (x | x << 16) & 0x1f0000ff0000ffull;
-    x = (x | x << 8) & 0x100f00f00f00f00full;
-    x = (x | x << 4) & 0x10c30c30c30c30c3ull;
-    return (x | x << 2) & 0x1249249249249249ull;
-}
 
 }  // namespace
 
@@ -52,7 +45,7 @@ StrandTracer::StrandTracer(const StrandPieces& strands, const Mesh& skin) : stra
     std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(count);
     for (std::size_t i = 0; i < count; ++i) {
         const Vec3f m = ((lows_[i] + highs_[i]) * 0.5f - low) * (2097151.0f / extent);
-        keys[i] = {spread_bits(static_cast<std::uint64_t>(m.x)) | spread_bits(static_cast<std::uint64_t>(m.y)) << 1 | spread_bits(static_cast<std::uint64_t>(m.z)) << 2, static_cast<std::uint32_t>(i)};
+        keys[i] = {morton(static_cast<std::uint64_t>(m.x), static_cast<std::uint64_t>(m.y), static_cast<std::uint64_t>(m.z)), static_cast<std::uint32_t>(i)};
     }
     std::ranges::sort(keys);
     order_.resize(count);
