@@ -135,7 +135,7 @@ TEST(Roots, FollowACurveOnWhichNeighboursAreNear) {
     const Roots roots = grow_roots(ball, {.count = 5000});
     double along = 0;
     for (std::size_t i = 1; i < roots.roots.size(); ++i) along += length(Vec3d(roots.roots[i].position) - Vec3d(roots.roots[i - 1].position));
-    // In a random order steps would be two thirds of the ball's width, 47 distances. A block is 24 wide and few strands long: to and fro in its cells, six wide, is what is left.
+    // In a random order steps would be two thirds of the ball's width (4/3 of its radius), 41 distances. A block is 24 wide and few strands long: to and fro in its cells, six wide, is what is left.
     EXPECT_LT(along / static_cast<double>(roots.roots.size() - 1), 6 * roots.distance);
 }
 
